@@ -1,0 +1,88 @@
+# qipov: POV-Ray scenes with bicubic patches, rendered natively with the quasi-interpolating net.
+#   make         build the four programs into build/
+#   make demo    install what is missing, render the teapot with QI and with POV-Ray, compare
+#   make test    install what is missing, build, run all tests (AddressSanitizer, UBSan)
+#   make deps lint gallery bench clean
+MAKEFLAGS += --no-builtin-rules
+.DELETE_ON_ERROR:
+.SECONDARY:
+
+PACKAGES = gcc g++ pkg-config povray povray-includes povray-examples libopenimageio-dev \
+           openimageio-tools libcmocka-dev libjansson-dev
+LINT_PACKAGES = clang-format clang-tidy cppcheck
+
+CC  ?= gcc
+CXX ?= g++
+ifeq ($(origin CC),default)
+CC = gcc
+endif
+ifeq ($(origin CXX),default)
+CXX = g++
+endif
+WARN   = -Wall -Wextra -Wshadow -Werror
+CWARN  = $(WARN) -Wconversion -Wmissing-prototypes -Wstrict-prototypes
+BASE   = -Isrc -I. -ffp-contract=off -fopenmp -MMD -MP -D_GNU_SOURCE
+CFLAGS   ?= -O3 -g -DNDEBUG
+SAN      = -O1 -g -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=undefined -DHOSTILE
+C11    = -std=c11 $(CWARN) $(BASE)
+CXX17  = -std=c++17 $(WARN) $(BASE)
+LIBS   = -lOpenImageIO -lOpenImageIO_Util -ljansson -lm -lstdc++
+
+MAINS    = converter/main.c $(wildcard src/cmd/*.c)
+LIB_C    = $(filter-out $(MAINS),$(wildcard converter/*.c src/*/*.c))
+LIB_CXX  = $(wildcard src/*/*.cpp)
+PROGRAMS = pov2qi $(patsubst src/cmd/%.c,%,$(wildcard src/cmd/*.c))
+TESTS    = $(patsubst tests/%.c,%,$(wildcard tests/test_*.c))
+TEST_LIB = $(filter-out $(wildcard tests/test_*.c),$(wildcard tests/*.c))
+
+OBJ      = $(LIB_C:%.c=build/%.o) $(LIB_CXX:%.cpp=build/%.o)
+TEST_OBJ = $(LIB_C:%.c=build/test/%.o) $(LIB_CXX:%.cpp=build/test/%.o) $(TEST_LIB:%.c=build/test/%.o)
+
+all: $(PROGRAMS:%=build/%)
+
+build/%.o: %.c
+	@mkdir -p $(@D)
+	$(CC) $(C11) $(CFLAGS) -c -o $@ $<
+build/%.o: %.cpp
+	@mkdir -p $(@D)
+	$(CXX) $(CXX17) $(CFLAGS) -c -o $@ $<
+build/test/%.o: %.c
+	@mkdir -p $(@D)
+	$(CC) $(C11) $(SAN) -c -o $@ $<
+build/test/%.o: %.cpp
+	@mkdir -p $(@D)
+	$(CXX) $(CXX17) $(SAN) -c -o $@ $<
+
+build/pov2qi: build/converter/main.o $(OBJ)
+	$(CC) -fopenmp -o $@ $^ $(LIBS)
+build/qi%: build/src/cmd/qi%.o $(OBJ)
+	$(CC) -fopenmp -o $@ $^ $(LIBS)
+
+# The programs under the sanitizers, for tests that run them; and the cmocka programs.
+build/test/pov2qi: build/test/converter/main.o $(TEST_OBJ)
+	$(CC) -fopenmp -fsanitize=address,undefined -o $@ $^ -lcmocka $(LIBS)
+build/test/qi%: build/test/src/cmd/qi%.o $(TEST_OBJ)
+	$(CC) -fopenmp -fsanitize=address,undefined -o $@ $^ -lcmocka $(LIBS)
+build/test/test_%: build/test/tests/test_%.o $(TEST_OBJ)
+	$(CC) -fopenmp -fsanitize=address,undefined -o $@ $^ -lcmocka $(LIBS)
+
+deps:
+	@tests/deps.sh $(PACKAGES)
+
+test: deps
+	@$(MAKE) --no-print-directory -j$$(nproc) all $(PROGRAMS:%=build/test/%) $(TESTS:%=build/test/%)
+	@tests/run.sh $(TESTS)
+
+lint:
+	@tests/deps.sh $(LINT_PACKAGES)
+	@tests/lint.sh
+
+demo: deps
+	@$(MAKE) --no-print-directory -j$$(nproc) all
+	@tests/demo.sh
+
+clean:
+	rm -rf build
+
+.PHONY: all deps test lint demo clean
+-include $(shell find build -name '*.d' 2>/dev/null)

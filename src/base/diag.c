@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: MIT
+// Messages are built whole in memory, then printed or handed to the innermost catch. State is per
+// thread where it must be (the catch), per program else (flags set once by main or a test).
+#include "base/diag.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct Catch {
+    jmp_buf jump;
+    char *message;
+    struct Catch *outer;
+} Catch;
+
+static _Thread_local Catch *innermost;
+static bool strict, verbose, quiet;
+static const char *program = "qipov";
+static size_t warnings;
+
+void diag_strict(bool on) { strict = on; }
+void diag_verbose(bool on) { verbose = on; }
+void diag_quiet(bool on) { quiet = on; }
+void diag_program(const char *name) { program = name; }
+size_t diag_warning_count(void) { return warnings; }
+
+enum { CARET_WIDTH = 160 }; // longer source lines are shown only around the caret
+
+// The source line of loc and a caret below its column. Bytes that a terminal could take for
+// commands are shown as '?', tabs as blanks.
+static void print_excerpt(FILE *out, const Loc *loc) {
+    if (!loc->text || loc->line < 1)
+        return;
+    const char *line = loc->text;
+    for (int n = 1; n < loc->line && *line; line++) {
+        if (*line == '\n' || (*line == '\r' && line[1] != '\n'))
+            n++;
+    }
+    int length = (int)strcspn(line, "\r\n"), caret = loc->column > 0 ? loc->column - 1 : 0;
+    if (caret > length)
+        caret = length;
+    int start = caret > CARET_WIDTH - 20 ? caret - (CARET_WIDTH - 20) : 0;
+    int end = length - start > CARET_WIDTH ? start + CARET_WIDTH : length;
+    fputs("\n  ", out);
+    for (int i = start; i < end; i++) {
+        unsigned char c = (unsigned char)line[i];
+        fputc(c == '\t' ? ' ' : (c < 32 || c == 127) ? '?' : c, out);
+    }
+    fprintf(out, "\n  %*s^", caret - start, "");
+}
+
+static void print_message(FILE *out, const Loc *loc, const char *kind, const char *format,
+                          va_list args) {
+    if (loc && loc->file)
+        fprintf(out, "%s:%d:%d: %s: ", loc->file, loc->line, loc->column, kind);
+    else
+        fprintf(out, "%s: %s: ", program, kind);
+    vfprintf(out, format, args);
+    if (!loc || !loc->file)
+        return;
+    print_excerpt(out, loc);
+    int depth = 0;
+    for (const Loc *from = loc->from, *at = loc; from && depth < 8;
+         at = from, from = from->from, depth++)
+        fprintf(out, "\n%s:%d:%d: note: %s here", from->file, from->line, from->column,
+                at->what ? at->what : "included");
+}
+
+static char *build_message(const Loc *loc, const char *kind, const char *format, va_list args) {
+    char *text = NULL;
+    size_t size = 0;
+    FILE *out = open_memstream(&text, &size);
+    if (!out) {
+        fputs("out of memory\n", stderr);
+        exit(1);
+    }
+    print_message(out, loc, kind, format, args);
+    fclose(out);
+    return text;
+}
+
+_Noreturn static void raise_message(char *message) {
+    if (innermost) {
+        innermost->message = message;
+        longjmp(innermost->jump, 1);
+    }
+    fprintf(stderr, "%s\n", message);
+    exit(1);
+}
+
+void die(const char *format, ...) {
+    va_list args;
+    va_start(args, format);
+    char *message = build_message(NULL, "error", format, args);
+    va_end(args);
+    raise_message(message);
+}
+
+void die_at(const Loc *loc, const char *format, ...) {
+    va_list args;
+    va_start(args, format);
+    char *message = build_message(loc, "error", format, args);
+    va_end(args);
+    raise_message(message);
+}
+
+static void warn_with(const Loc *loc, const char *format, va_list args) {
+    warnings++;
+    char *message = build_message(loc, strict ? "error" : "warning", format, args);
+    if (strict)
+        raise_message(message);
+    if (!quiet)
+        fprintf(stderr, "%s\n", message);
+    free(message);
+}
+
+void warn_at(const Loc *loc, const char *format, ...) {
+    va_list args;
+    va_start(args, format);
+    warn_with(loc, format, args);
+    va_end(args);
+}
+
+void warn(const char *format, ...) {
+    va_list args;
+    va_start(args, format);
+    warn_with(NULL, format, args);
+    va_end(args);
+}
+
+void note_at(const Loc *loc, const char *format, ...) {
+    if (!verbose || quiet)
+        return;
+    va_list args;
+    va_start(args, format);
+    char *message = build_message(loc, "note", format, args);
+    va_end(args);
+    fprintf(stderr, "%s\n", message);
+    free(message);
+}
+
+bool diag_catch(void (*body)(void *), void *arg, char **message) {
+    Catch frame = {.outer = innermost};
+    innermost = &frame;
+    if (setjmp(frame.jump) == 0) {
+        body(arg);
+        innermost = frame.outer;
+        return true;
+    }
+    innermost = frame.outer;
+    if (message)
+        *message = frame.message;
+    else
+        free(frame.message);
+    return false;
+}

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+#include "base/progress.h"
+
+#include <stdio.h>
+#include <time.h>
+#include <unistd.h>
+
+double progress_seconds(void) {
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+Progress progress_begin(const char *what, uint64_t total, bool enabled) {
+    Progress p = {.what = what, .total = total ? total : 1, .started = progress_seconds()};
+    p.on = enabled && isatty(STDERR_FILENO);
+    return p;
+}
+
+void progress_add(Progress *p, uint64_t amount) {
+    uint64_t done = __atomic_add_fetch(&p->done, amount, __ATOMIC_RELAXED);
+    if (!p->on)
+        return;
+#pragma omp critical(progress_line)
+    {
+        double now = progress_seconds();
+        if (now - p->shown >= 0.1) {
+            p->shown = now;
+            double share = (double)done / (double)p->total, elapsed = now - p->started;
+            fprintf(stderr, "\r%s %5.1f %%, %.0f s left \033[K", p->what, 100.0 * share,
+                    share > 0 ? elapsed * (1 - share) / share : 0.0);
+            fflush(stderr);
+        }
+    }
+}
+
+void progress_end(Progress *p) {
+    if (p->on && p->shown > 0)
+        fputs("\r\033[K", stderr);
+}

@@ -1,0 +1,307 @@
+// SPDX-License-Identifier: MIT
+// The scene model: the contract between the converter (or a .qi.json file) and the renderer. Plain
+// structs in one arena; records refer to records by uint32_t index, NO_INDEX means none.
+//
+// Everything that POV-Ray's language makes depend on order is already done: transforms are applied,
+// textures are inherited from parents and defaults, the camera vectors are final, CSG parents have
+// pushed their flags down. Angles in degrees, lengths in scene units, colours in the working space.
+#ifndef MODEL_SCENE_H
+#define MODEL_SCENE_H
+
+#include "base/arena.h"
+#include "base/color.h"
+#include "base/vec.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#define NO_INDEX UINT32_MAX
+
+// ---- settings -------------------------------------------------------------------------------
+
+// ORDER gamma_mode (names in scene_json.c)
+typedef enum {
+    GAMMA_NONE,  // no assumed_gamma and effective version < 3.7: numbers are written unchanged
+    GAMMA_POWER, // working space is a power law; assumed_gamma 1.0 is linear
+    GAMMA_SRGB,  // assumed_gamma srgb
+} GammaMode;
+
+typedef struct {
+    int version; // effective language version x 100 (370, 362 when none was ever set)
+    GammaMode gamma_mode;
+    float assumed_gamma; // with GAMMA_POWER
+    Rgb ambient_light;
+    int max_trace_level;
+    float adc_bailout;
+    int noise_generator; // 1, 2, 3: in force at the end of parsing
+    int number_of_waves;
+    Rgb irid_wavelength;
+    Color background; // default black with transmit 1
+} Settings;
+
+// ---- camera ---------------------------------------------------------------------------------
+
+// ORDER camera_type
+typedef enum { CAMERA_PERSPECTIVE, CAMERA_ORTHOGRAPHIC } CameraType;
+
+// The vectors as they stand after angle, look_at and all transforms (facts: rendering 1.2).
+typedef struct {
+    CameraType type;
+    Vec3 location, direction, up, right;
+    double angle_deg; // as stored by `angle`; used only by camera types other than these two
+} Camera;
+
+// ---- lights ---------------------------------------------------------------------------------
+
+// ORDER light_type
+typedef enum { LIGHT_POINT, LIGHT_PARALLEL } LightType;
+
+typedef struct {
+    LightType type;
+    Vec3 location;
+    Vec3 point_at; // parallel: the light travels along point_at - location everywhere
+    Rgb color;
+    bool shadowless; // no shadow test, diffuse only
+    float fade_distance;
+    float fade_power;
+} Light;
+
+// ---- textures -------------------------------------------------------------------------------
+
+// ORDER pattern_type. Modelled: the first ones; the rest is parsed, warned of and replaced by the
+// converter, so that a Scene never holds it.
+typedef enum {
+    PATTERN_PLAIN,
+    PATTERN_CHECKER,  // list pattern: entries at 0, 1
+    PATTERN_GRADIENT, // along `gradient`
+    PATTERN_MODELLED, // patterns from here on are not in a Scene
+} PatternType;
+
+// ORDER wave_type
+typedef enum {
+    WAVE_RAMP,
+    WAVE_TRIANGLE,
+    WAVE_SINE,
+    WAVE_SCALLOP,
+    WAVE_CUBIC,
+    WAVE_POLY,
+} WaveType;
+
+// ORDER warp_type
+typedef enum {
+    WARP_TRANSFORM, // the point is multiplied by the inverse
+} WarpType;
+
+typedef struct {
+    WarpType type;
+    Transform transform;
+} Warp;
+
+// How a point becomes a number. warps are stored in the order in which they are applied to the
+// point (last written first); consecutive transforms are one (facts: textures 1.6).
+typedef struct {
+    PatternType type;
+    WaveType wave;
+    float frequency, phase, exponent; // frequency 0: no modulus, phase ignored
+    Vec3 gradient;                    // of unit length
+    Warp *warps;
+    uint32_t warp_count;
+} Pattern;
+
+// One entry of a map: `value` is the position; the colour, or a pigment when pigment != NO_INDEX.
+typedef struct {
+    float value;
+    Color color;
+    uint32_t pigment;
+} MapEntry;
+
+typedef struct {
+    Pattern pattern;
+    Color color;       // PATTERN_PLAIN
+    MapEntry *entries; // all other patterns; never empty there
+    uint32_t entry_count;
+    bool uv_mapping;      // evaluate at (u, v, 0) of the hit
+    bool has_quick_color; // used instead at quality 0..5
+    Color quick_color;
+} Pigment;
+
+// Facts: rendering 4.4, 4.5. reflection: `max` is the value at grazing angles, `min` head-on.
+typedef struct {
+    Rgb ambient, emission;
+    float diffuse, diffuse_back, brilliance, crand;
+    float phong, phong_size;
+    float specular, roughness; // roughness as written (the exponent is 1 / roughness)
+    float metallic;
+    Rgb reflection_min, reflection_max;
+    float reflection_falloff, reflection_exponent, reflection_metallic;
+    bool reflection_fresnel;
+    bool conserve_energy;
+    float irid, irid_thickness, irid_turbulence;
+} Finish;
+
+typedef struct {
+    uint32_t pigment;
+    Finish finish;
+} Layer;
+
+// layers[0] is the top one (the last written).
+typedef struct {
+    Layer *layers;
+    uint32_t layer_count;
+    bool uv_mapping; // the whole stack at (u, v, 0)
+} Texture;
+
+typedef struct {
+    float ior;      // 1 when unset
+    float caustics; // as written x 45
+    float fade_distance, fade_power;
+    Rgb fade_color;
+} Interior;
+
+// ---- objects --------------------------------------------------------------------------------
+
+// ORDER object_type
+typedef enum {
+    OBJECT_UNION, // children are separate objects
+    OBJECT_MERGE, // hits inside another child are dropped
+    OBJECT_PATCH,
+    OBJECT_PLANE,
+    OBJECT_SPHERE,
+    OBJECT_BOX,
+    OBJECT_CYLINDER,
+    OBJECT_CONE,
+    OBJECT_TORUS,
+    OBJECT_DISC,
+    OBJECT_TRIANGLE,
+} ObjectType;
+
+// A Bézier patch in world space. Row i of points is weighted with u (POV-Ray's first index),
+// column j with v. Texture coordinates: bilinear in the four corners (facts: rendering 7.6).
+typedef struct {
+    uint32_t degree_u, degree_v; // 1..16; 3, 3 for bicubic_patch
+    Vec3 *points;                // (degree_u + 1) * (degree_v + 1)
+    int type;                    // POV-Ray's 0 or 1; the picture is the same
+    double flatness;             // this and the steps matter only to `facets`
+    int u_steps, v_steps;        // recursion depths, not counts
+    Vec2 uv[4];                  // at (i,j) = (0,0), (0,d), (d,d), (d,0)
+} PatchShape;
+
+typedef struct { // { p : normal . p = distance }, world space; inside is the side normal points
+                 // from
+    Vec3 normal; // unit
+    double distance;
+} PlaneShape;
+
+// Below: local space; Object.transform takes it to the world.
+typedef struct {
+    Vec3 center;
+    double radius;
+} SphereShape;
+
+typedef struct {
+    Vec3 low, high;
+} BoxShape;
+
+// The cylinder or cone from base to apex (POV-Ray's two end points as written, with its order).
+typedef struct {
+    Vec3 base, apex;
+    double base_radius, apex_radius; // equal for a cylinder
+    bool open;
+} ConeShape;
+
+typedef struct { // axis y
+    double major, minor;
+} TorusShape;
+
+typedef struct {
+    Vec3 center, normal; // unit
+    double radius, hole;
+} DiscShape;
+
+typedef struct { // world space
+    Vec3 p[3];
+} TriangleShape;
+
+typedef struct {
+    ObjectType type;
+    // Leaves: NO_INDEX in texture means POV-Ray's built-in default (black). interior NO_INDEX: an
+    // air interior of its own; two objects with the same index are one body to a ray.
+    uint32_t texture, interior_texture, interior;
+    bool no_shadow, no_image, no_reflection, hollow, inverse, double_illuminate;
+    bool uv_mapping; // object level: all its textures are evaluated at (u, v, 0)
+    bool has_transform;
+    Transform transform; // local to world, for SPHERE .. DISC
+    union {
+        PatchShape patch;
+        PlaneShape plane;
+        SphereShape sphere;
+        BoxShape box;
+        ConeShape cone; // also OBJECT_CYLINDER
+        TorusShape torus;
+        DiscShape disc;
+        TriangleShape triangle;
+        struct { // UNION, MERGE
+            uint32_t *items;
+            uint32_t count;
+        } children;
+    } shape;
+} Object;
+
+// The sky: pigments from bottom to top; the unit direction goes through the inverse transform.
+typedef struct {
+    uint32_t *pigments;
+    uint32_t pigment_count;
+    Rgb emission;
+    Transform transform;
+} SkySphere;
+
+typedef struct {
+    Settings settings;
+    Camera camera;
+    bool has_sky_sphere;
+    SkySphere sky_sphere;
+    Light *lights;
+    uint32_t light_count;
+    Pigment *pigments;
+    uint32_t pigment_count;
+    Texture *textures;
+    uint32_t texture_count;
+    Interior *interiors;
+    uint32_t interior_count;
+    Object *objects; // every node of the trees
+    uint32_t object_count;
+    uint32_t *roots; // what stands at top level, in the order of the source
+    uint32_t root_count;
+    const char **requires; // features the scene needs, sorted, each once ("bicubic_patch", ...)
+    uint32_t requires_count;
+} Scene;
+
+Settings settings_default(void);
+Camera camera_default(void);
+Finish finish_default(void);
+Interior interior_default(void);
+Pattern pattern_default(void);
+Object object_default(ObjectType type);
+
+// Checks what the renderer relies on: indices in range, trees without cycles, degrees, finite
+// numbers, map positions. Dies naming the field ("objects[3].interior: ..."). file is for messages.
+void scene_validate(const Scene *scene, const char *file);
+
+// Fills scene->requires (in arena) from what the scene holds: object types, patterns, camera type,
+// ...
+void scene_collect_requires(Scene *scene, Arena *arena);
+
+// ---- the scene file: JSON, see README "The scene file" ----------------------------------------
+
+typedef struct {
+    bool binary; // large arrays to a side file "<name>.bin" (always above 10,000 patches)
+} SceneWriteOptions;
+
+// Writes path whole or not at all ("-": standard output, never binary); dies with a message if not.
+void scene_write(const Scene *scene, const char *path, const SceneWriteOptions *options);
+
+// Reads and validates; dies with file:line:col for a syntax error, with the field's name for the
+// rest. All memory in arena.
+Scene *scene_read(const char *path, Arena *arena);
+
+#endif

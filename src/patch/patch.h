@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+// Ray against Bézier patches: one interface, several methods. The mathematics is in bezier.h and
+// quasi.h, the methods in qi.c (the paper), accel.c (the fast path), facets.c (POV-Ray's
+// triangles).
+//
+// Units: points in world space, t in lengths of the ray's dir, (u, v) in [0,1]^2 with u weighting
+// the rows of the control points (POV-Ray's first index).
+#ifndef PATCH_PATCH_H
+#define PATCH_PATCH_H
+
+#include "base/vec.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+// ORDER patch_method (names in patchset.c)
+typedef enum {
+    METHOD_QI,       // sub-patches, tree, QI bounds: the product
+    METHOD_QI_PAPER, // the paper's loop, double, no shortcuts
+    METHOD_FACETS,   // POV-Ray's own triangles
+    METHOD_COUNT,
+} PatchMethod;
+
+const char *patch_method_name(PatchMethod method);
+bool patch_method_parse(const char *name, PatchMethod *method); // false: no such method
+
+typedef struct {
+    uint32_t degree_u, degree_v; // 1..16
+    const Vec3 *points;          // (degree_u + 1) * (degree_v + 1), row by row; copied
+    uint32_t id;                 // the caller's, comes back in hits
+    uint32_t mask;               // a ray meets the patch when (ray mask & mask) != 0
+    double flatness;             // facets only, as are the steps
+    int u_steps, v_steps;
+} PatchDef;
+
+typedef struct {
+    double t, u, v;
+    Vec3 normal;  // unit, along dS/du x dS/dv (facets: interpolated as POV-Ray does)
+    double bound; // |org + t dir - S(u,v)| <= bound, in scene units (facets: of the triangle, 0)
+    uint32_t id;
+} PatchHit;
+
+// Counted per thread; the caller adds them up.
+typedef struct {
+    uint64_t patch_tests; // patches (or sub-patches) whose box the ray met
+    uint64_t steps;       // QI nets built or thick parallelograms tested; facets: triangles tested
+    uint64_t newton;      // Newton steps
+    uint64_t hits;        // hits reported
+} PatchStats;
+
+typedef struct PatchSet PatchSet;
+
+typedef struct {
+    PatchMethod method;
+    double tolerance; // |hit - S| <= tolerance x the patch's diameter; default 1e-9
+} PatchSetOptions;
+
+PatchSetOptions patchset_options_default(void);
+PatchSet *patchset_create(const PatchSetOptions *options);
+void patchset_destroy(PatchSet *set);
+// Points must be finite (the caller has checked). Not after commit.
+void patchset_add(PatchSet *set, const PatchDef *def);
+// Builds what the method needs, in parallel if it pays. After it the set is read-only and any
+// number of threads may trace.
+void patchset_commit(PatchSet *set);
+Box patchset_bounds(const PatchSet *set);      // of the control points; empty when there are none
+uint64_t patchset_memory(const PatchSet *set); // bytes after commit
+
+// Nearest hit with t_min <= t < t_max among the patches that mask selects. stats may be NULL.
+bool patchset_intersect(const PatchSet *set, const Ray *ray, double t_min, double t_max,
+                        uint32_t mask, PatchStats *stats, PatchHit *hit);
+// Is there any?
+bool patchset_occluded(const PatchSet *set, const Ray *ray, double t_min, double t_max,
+                       uint32_t mask, PatchStats *stats);
+// Every hit, in no particular order: calls sink for each (for CSG). A double hit of a fold is two.
+typedef void (*PatchSink)(void *context, const PatchHit *hit);
+void patchset_all(const PatchSet *set, const Ray *ray, double t_min, double t_max, uint32_t mask,
+                  PatchStats *stats, PatchSink sink, void *context);
+
+#endif

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+// The scene made ready for rays: patches in a PatchSet, bounded primitives in a tree of boxes,
+// infinite ones beside it. Read-only while rendering; any number of threads.
+#ifndef RENDER_WORLD_H
+#define RENDER_WORLD_H
+
+#include "model/scene.h"
+#include "patch/patch.h"
+
+// What a ray is for; also the bits of an object's mask (no_image, no_reflection, no_shadow).
+typedef enum {
+    RAY_CAMERA = 1,     // primary, and refracted or passed straight through from those
+    RAY_REFLECTION = 2, // reflected at least once
+    RAY_SHADOW = 4,
+    RAY_ALL = 7,
+} RayKind;
+
+typedef struct {
+    uint64_t primary, reflected, refracted, transmitted, shadow; // rays
+    uint64_t shape_tests, shape_hits;                            // primitives other than patches
+    PatchStats patch;
+} RayStats;
+
+typedef struct {
+    double t;
+    Vec3 p;          // org + t dir
+    Vec3 normal;     // unit; the object's, before flipping to the viewer; `inverse` already applied
+    double u, v;     // texture coordinates where the object has them, else 0
+    double bound;    // patches: the hit's proven bound, else 0
+    uint32_t object; // index in scene->objects, a leaf
+} WorldHit;
+
+typedef struct World World;
+
+// scene must outlive the world and be valid.
+World *world_create(const Scene *scene, const PatchSetOptions *patches);
+void world_destroy(World *world);
+
+// Nearest hit with t_min <= t < t_max that this kind of ray can see. Equal depths: the object that
+// stands first in the source. Each primitive also has its own least depth (facts: rendering 0.2).
+bool world_intersect(const World *world, const Ray *ray, double t_min, double t_max, RayKind kind,
+                     RayStats *stats, WorldHit *hit);
+// Is anything that throws a shadow between? Only right when all of that is opaque.
+bool world_occluded(const World *world, const Ray *ray, double t_min, double t_max,
+                    RayStats *stats);
+// Is the point inside the object (a root or a leaf)? Patches, triangles have no inside.
+bool world_inside(const World *world, uint32_t object, Vec3 p);
+// Every object (leaf, not hollow... all) that contains p, in source order; up to max; returns the
+// count.
+uint32_t world_containing(const World *world, Vec3 p, uint32_t *objects, uint32_t max);
+uint64_t world_memory(const World *world); // bytes
+
+#endif

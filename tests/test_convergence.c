@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: MIT
+// Our one picture (--method qi) against six of POV-Ray's, whose patches are cut 2..7 times: the
+// finer POV-Ray cuts, the nearer its picture comes to ours. The table in README is this program's
+// output. Two figures a step, in steps of 8 bits (1 = 1/255):
+//   whole    RMS over the whole picture,
+//   inside   RMS over pixels on patches and away from silhouettes: the camera rays of the pixel and
+//            of its eight neighbours meet patches, their normals are within 20 degrees of the
+//            pixel's own, none is seen at less than 12 degrees to the surface, and their depths
+//            lie as smoothly as those normals say.
+// Limits: `whole` falls at every step; the last `inside` is below 1, one step of 8 bits.
+#include "pictures.h"
+
+#include "base/file.h"
+#include "converter/convert.h"
+#include "render/camera.h"
+#include "render/world.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+enum { WIDTH = 320, HEIGHT = 240, FIRST_STEP = 2, LAST_STEP = 7 };
+
+typedef struct {
+    const char *name, *folder, *scene;
+} Row;
+
+static const Row ROWS[] = {
+    {"bezier.pov", EXAMPLES "objects", "bezier.pov"},
+    {"teapot.pov", EXAMPLES "advanced/teapot", "teapot.pov"},
+    {"folds.pov", "scenes/folds", "folds.pov"},
+};
+
+typedef struct {
+    Vec3 normal;
+    double cosine;
+    bool patch;
+} Seen;
+
+// Casts the camera ray of every pixel.
+static void look(const Scene *scene, Seen *seen) {
+    PatchSetOptions options = patchset_options_default();
+    World *world = world_create(scene, &options);
+    CameraRays camera = camera_rays(&scene->camera, WIDTH, HEIGHT);
+    for (int y = 0; y < HEIGHT; y++) {
+        for (int x = 0; x < WIDTH; x++) {
+            Seen *s = &seen[y * WIDTH + x];
+            Ray ray;
+            WorldHit hit;
+            *s = (Seen){0};
+            if (!camera_ray(&camera, x, y, &ray) ||
+                !world_intersect(world, &ray, 1e-4, INFINITY, RAY_CAMERA, NULL, &hit))
+                continue;
+            s->patch = scene->objects[hit.object].type == OBJECT_PATCH;
+            s->normal = hit.normal;
+            s->cosine = vec_dot(hit.normal, ray.dir);
+        }
+    }
+    world_destroy(world);
+}
+
+static bool is_inside(const Seen *seen, int x, int y) {
+    const double SMOOTH = cos(20.0 * 3.14159265358979 / 180.0);
+    const double STEEP = sin(12.0 * 3.14159265358979 / 180.0);
+    const Seen *middle = &seen[y * WIDTH + x];
+    if (x < 1 || y < 1 || x >= WIDTH - 1 || y >= HEIGHT - 1)
+        return false;
+    for (int dy = -1; dy <= 1; dy++)
+        for (int dx = -1; dx <= 1; dx++) {
+            const Seen *s = &seen[(y + dy) * WIDTH + x + dx];
+            if (!s->patch || fabs(s->cosine) < STEEP ||
+                fabs(vec_dot(s->normal, middle->normal)) < SMOOTH)
+                return false;
+        }
+    return true;
+}
+
+// RMS in steps of 8 bits over the pixels that mask selects (all when NULL).
+static double rms(const Image *a, const Image *b, const bool *mask) {
+    double sum = 0;
+    size_t count = 0;
+    for (int i = 0; i < WIDTH * HEIGHT; i++) {
+        if (mask && !mask[i])
+            continue;
+        for (int c = 0; c < 3; c++) {
+            double d = 255.0 * ((double)a->pixels[i * a->channels + c] -
+                                (double)b->pixels[i * b->channels + c]);
+            sum += d * d;
+        }
+        count += 3;
+    }
+    assert_true(count > 0);
+    return sqrt(sum / (double)count);
+}
+
+static void converges(void **state) {
+    const Row *row = *state;
+    const char *scratch = scratch_folder();
+    assert_int_equal(run_command(NULL, "rm -rf '%s/c' && cp -r '%s' '%s/c'", scratch, row->folder,
+                                 scratch),
+                     0);
+    char scene_path[4400];
+    snprintf(scene_path, sizeof scene_path, "%s/c/%s", scratch, row->scene);
+
+    Arena *arena = arena_create();
+    const Image *ours = NULL;
+    bool *mask = ARENA_ARRAY(arena, bool, WIDTH *HEIGHT);
+    size_t inside_count = 0;
+    double whole[LAST_STEP + 1], inside[LAST_STEP + 1];
+    for (int steps = FIRST_STEP; steps <= LAST_STEP; steps++) {
+        assert_int_equal(run_command(NULL,
+                                     "cd '%s/c' && sed -E -i 's/(u_steps|v_steps)[[:space:]]+"
+                                     "[0-9A-Za-z_]+/\\1 %d/g; s/flatness[[:space:]]+"
+                                     "[0-9.A-Za-z_]+/flatness 0/g' *.pov *.inc 2>/dev/null; true",
+                                     scratch, steps),
+                         0);
+        if (!ours) {
+            ours = image_read(arena, render_with_qirender("ours", scene_path, "+W320 +H240 -A"));
+            RenderOptions options = options_default();
+            options.input = scene_path;
+            options.width = WIDTH;
+            options.height = HEIGHT;
+            const char *library = arena_printf(arena, "%s/c", scratch);
+            options.library_paths = &library;
+            options.library_path_count = 1;
+            Seen *seen = ARENA_ARRAY(arena, Seen, WIDTH *HEIGHT);
+            look(convert_scene(&options, arena), seen);
+            for (int i = 0; i < WIDTH * HEIGHT; i++)
+                inside_count += mask[i] = is_inside(seen, i % WIDTH, i / WIDTH);
+        }
+        const Image *theirs =
+            image_read(arena, render_with_povray("theirs", scene_path, "+W320 +H240 -A"));
+        whole[steps] = rms(ours, theirs, NULL);
+        inside[steps] = rms(ours, theirs, mask);
+    }
+    print_message("| %-10s | whole  |", row->name);
+    for (int s = FIRST_STEP; s <= LAST_STEP; s++)
+        print_message(" %7.3f |", whole[s]);
+    print_message("\n| %-10s | inside |", "");
+    for (int s = FIRST_STEP; s <= LAST_STEP; s++)
+        print_message(" %7.3f |", inside[s]);
+    print_message("  (%zu pixels)\n", inside_count);
+    for (int s = FIRST_STEP + 1; s <= LAST_STEP; s++)
+        assert_true(whole[s] < whole[s - 1]);
+    assert_true(inside[LAST_STEP] < 1.0);
+    arena_destroy(arena);
+}
+
+int main(void) {
+    enum { COUNT = sizeof ROWS / sizeof *ROWS };
+    struct CMUnitTest tests[COUNT];
+    for (int i = 0; i < COUNT; i++)
+        tests[i] = (struct CMUnitTest){ROWS[i].name, converges, NULL, NULL,
+                                       (void *)(uintptr_t)&ROWS[i]};
+    print_message("RMS in steps of 8 bits; u_steps = v_steps =   2, 3, 4, 5, 6, 7; flatness 0\n");
+    return cmocka_run_group_tests_name("convergence", tests, NULL, NULL);
+}

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+// Whole pictures against POV-Ray's: with its own triangles (--method facets) they must be the same,
+// so everything around the patch is right. Limit: at most 1 pixel in 10,000 off by more than one step
+// of 8 bits (0.0041 of full range is just above 1/255), since a ray on the very edge of a triangle or
+// a tie between two surfaces may be decided by the last bit.
+#include "pictures.h"
+
+#include "base/file.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#define ONE_STEP 0.0041
+#define AT_MOST_PERCENT 0.01
+
+static const char *const SWITCHES[] = {"-A", "+A0.3", "+A0.3 +AM2 +R3"};
+
+typedef struct {
+    const char *name, *scene;
+} Row;
+
+static const Row ROWS[] = {
+    {"bezier", EXAMPLES "objects/bezier.pov"},
+    {"teapot", EXAMPLES "advanced/teapot/teapot.pov"},
+    {"cephalopov", CORPUS "cephalopov/bicubicpatch_basic.pov"},
+    {"dealii", CORPUS "dealii/cont243bic.pov"},
+    {"postit", CORPUS "postit/postit.pov"},
+    {"teapot-matte", "scenes/teapot-matte/teapot-matte.pov"},
+    {"teapot-chrome", "scenes/teapot-chrome/teapot-chrome.pov"},
+    {"teapot-glass", "scenes/teapot-glass/teapot-glass.pov"},
+};
+
+static void facets_equal_povray(void **state) {
+    const Row *row = *state;
+    if (!file_exists(row->scene)) {
+        print_message("skipped: %s is not here\n", row->scene);
+        skip();
+    }
+    int bad = 0;
+    for (size_t i = 0; i < sizeof SWITCHES / sizeof *SWITCHES; i++) {
+        char switches[256];
+        snprintf(switches, sizeof switches, "+W320 +H240 %s", SWITCHES[i]);
+        const char *theirs = render_with_povray("theirs", row->scene, switches);
+        strcat(switches, " --method facets");
+        const char *ours = render_with_qirender("ours", row->scene, switches);
+        double percent = percent_over(theirs, ours, ONE_STEP);
+        print_message("%-14s %-16s %.4f %% of the pixels differ\n", row->name, SWITCHES[i],
+                      percent);
+        bad += !(percent <= AT_MOST_PERCENT);
+    }
+    assert_int_equal(bad, 0);
+}
+
+static void bytes_do_not_depend_on_threads(void **state) {
+    (void)state;
+    const char *scene = EXAMPLES "advanced/teapot/teapot.pov";
+    const char *first = NULL;
+    for (int i = 0; i < 4; i++) {
+        char name[32], switches[64];
+        snprintf(name, sizeof name, "threads%d", i);
+        snprintf(switches, sizeof switches, "+W320 +H240 +A0.3 +WT%d", 1 + i % 2);
+        const char *picture = render_with_qirender(name, scene, switches);
+        if (first)
+            assert_int_equal(run_command(NULL, "cmp '%s' '%s'", first, picture), 0);
+        else
+            first = picture;
+    }
+}
+
+int main(void) {
+    enum { COUNT = sizeof ROWS / sizeof *ROWS };
+    struct CMUnitTest tests[COUNT + 1];
+    for (int i = 0; i < COUNT; i++)
+        tests[i] = (struct CMUnitTest){ROWS[i].name, facets_equal_povray, NULL, NULL,
+                                       (void *)(uintptr_t)&ROWS[i]};
+    tests[COUNT] = (struct CMUnitTest)cmocka_unit_test(bytes_do_not_depend_on_threads);
+    return cmocka_run_group_tests_name("pictures", tests, NULL, NULL);
+}

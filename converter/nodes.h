@@ -79,8 +79,8 @@ typedef struct {
     int keyword;        // 0: no pattern, KW_color: one colour
     PatternType type;   // PATTERN_MODELLED: parsed, but not modelled
     bool triangle;      // sets triangle_wave
-    int list;           // takes up to so many items instead of a map; sets frequency 0
-    const char *colors; // name of the default map (map.c)
+    bool still;         // sets frequency 0
+    int list;           // takes up to so many items instead of a map
 } PatternInfo;
 
 // A pigment, a normal, a density, or the pattern of a texture.
@@ -97,8 +97,8 @@ typedef struct {
     Color color;        // one colour
     bool has_quick_color;
     Color quick_color;
-    float amount;   // normal: depth
-    const Loc *loc_normal; // normal: of the block
+    float amount;               // normal: depth
+    const Loc *block_loc;       // normal: of its block
 } PatternNode;
 
 const PatternInfo *pattern_find(int keyword);

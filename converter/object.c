@@ -153,6 +153,8 @@ static void invert_csg(Converter *cv, ObjectNode *object) {
     object->keyword = becomes_union ? KW_union : KW_intersection;
     object->modelled = becomes_union;
     object->object.type = OBJECT_UNION;
+    if (!becomes_union && !object->loc)
+        object->loc = keep_place(cv, peek_token(cv));
 }
 
 void object_invert(Converter *cv, ObjectNode *object) {

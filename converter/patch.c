@@ -70,19 +70,19 @@ static void parse_points(Converter *cv, Vec3 *points) {
     for (int i = 0; i < 16; i++) {
         if (i > 0)
             optional_comma(cv);
-        Loc loc = here(cv);
+        const Token *token = peek_token(cv);
         if (!starts_expression(cv))
-            die_at(&loc, "bicubic_patch needs 16 points, found %d", i);
+            die_expected(cv, arena_printf(cv->arena, "point %d of 16 in bicubic_patch", i + 1));
         points[i] = parse_vector(cv);
-        if (!vec_is_finite(points[i]))
+        if (!vec_is_finite(points[i])) {
+            Loc loc = token_loc(cv, token);
             die_at(&loc,
                    "point %d of the patch (group %d, position %d) is not finite: <%g, %g, %g>",
                    i + 1, i / 4 + 1, i % 4 + 1, points[i].x, points[i].y, points[i].z);
+        }
     }
-    if (starts_expression(cv)) {
-        Loc loc = here(cv);
-        die_at(&loc, "bicubic_patch has 16 points, here begins another one");
-    }
+    if (starts_expression(cv))
+        die_expected(cv, "a modifier or '}' after the 16 points of bicubic_patch");
 }
 
 void parse_patch_data(Converter *cv, ObjectNode *object) {

@@ -6,14 +6,16 @@
 
 #include <math.h>
 
-// POV-Ray's limit below which two radii are one.
-static const double EQUAL_RADII = 1e-10;
+// POV-Ray's limit below which two radii, or the two ends of an axis, are one.
+static const double EQUAL = 1e-10;
 
 static Vec3 parse_direction(Converter *cv, const char *what) {
-    Loc loc = here(cv);
+    const Token *token = peek_token(cv);
     Vec3 v = parse_vector(cv);
-    if (!(vec_length(v) > 0.0) || !isfinite(vec_length(v)))
+    if (!(vec_length(v) > 0.0) || !isfinite(vec_length(v))) {
+        Loc loc = token_loc(cv, token);
         die_at(&loc, "the normal of a %s must have a length", what);
+    }
     return vec_normalize(v);
 }
 
@@ -38,13 +40,15 @@ static void parse_box(Converter *cv, ObjectNode *object) {
     object->object.shape.box = (BoxShape){vec_min(a, b), vec_max(a, b)};
 }
 
-static void check_axis(const Loc *loc, const ConeShape *cone, const char *what) {
-    if (vec_length(vec_sub(cone->apex, cone->base)) < 1e-10)
-        die_at(loc, "the two ends of the %s are the same point", what);
+static void check_axis(Converter *cv, const Token *token, const ConeShape *cone, const char *what) {
+    if (vec_length(vec_sub(cone->apex, cone->base)) < EQUAL) {
+        Loc loc = token_loc(cv, token);
+        die_at(&loc, "the two ends of the %s are the same point", what);
+    }
 }
 
 static void parse_cylinder(Converter *cv, ObjectNode *object) {
-    Loc loc = here(cv);
+    const Token *token = peek_token(cv);
     ConeShape *cone = &object->object.shape.cone;
     cone->base = parse_vector(cv);
     optional_comma(cv);
@@ -52,11 +56,11 @@ static void parse_cylinder(Converter *cv, ObjectNode *object) {
     optional_comma(cv);
     cone->base_radius = cone->apex_radius = parse_float(cv);
     cone->open = accept(cv, KW_open);
-    check_axis(&loc, cone, "cylinder");
+    check_axis(cv, token, cone, "cylinder");
 }
 
 static void parse_cone(Converter *cv, ObjectNode *object) {
-    Loc loc = here(cv);
+    const Token *token = peek_token(cv);
     ConeShape *cone = &object->object.shape.cone;
     cone->base = parse_vector(cv);
     optional_comma(cv);
@@ -66,8 +70,8 @@ static void parse_cone(Converter *cv, ObjectNode *object) {
     optional_comma(cv);
     cone->apex_radius = parse_float(cv);
     cone->open = accept(cv, KW_open);
-    check_axis(&loc, cone, "cone");
-    if (fabs(cone->apex_radius - cone->base_radius) < EQUAL_RADII)
+    check_axis(cv, token, cone, "cone");
+    if (fabs(cone->apex_radius - cone->base_radius) < EQUAL)
         object->object.type = OBJECT_CYLINDER;
 }
 

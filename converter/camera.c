@@ -1,0 +1,296 @@
+// SPDX-License-Identifier: MIT
+// camera{} (facts: sdl 4.10, rendering 1.1, 1.2). From version 3.5 on the values are collected and
+// applied at the end in a fixed order; before, each acts where it stands. The order of the
+// operations is POV-Ray's, since every ray depends on the last bits of these vectors.
+#include "converter/nodes.h"
+
+#include <math.h>
+
+static const double RADIANS_PER_HALF_DEGREE = 0.00872664625997164788461845384244; // pi / 360
+static const double NEAR_ZERO = 1e-10;                                            // POV-Ray's limit
+
+typedef struct {
+    CameraNode *node;
+    int type; // KW_perspective, ...
+    bool old; // version < 3.5: everything acts at once
+    bool has_up, has_right, has_angle, has_look_at;
+    double angle;
+    Transform transform;
+    const Token *blur; // of aperture
+    double aperture, blur_samples;
+} Reader;
+
+static bool is_type(int code) {
+    return code == KW_perspective || code == KW_orthographic || code == KW_fisheye ||
+           code == KW_ultra_wide_angle || code == KW_omnimax || code == KW_panoramic ||
+           code == KW_spherical || code == KW_cylinder || code == KW_mesh_camera;
+}
+
+// |direction| = |right| / (2 tan(angle / 2))
+static void apply_angle(Camera *camera, double angle) {
+    camera->direction = vec_normalize(camera->direction);
+    double length = vec_length(camera->right) / tan(angle * RADIANS_PER_HALF_DEGREE) / 2.0;
+    camera->direction = vec_scale(camera->direction, length);
+}
+
+static bool vanishes(Vec3 v) {
+    return fabs(v.x) < NEAR_ZERO && fabs(v.y) < NEAR_ZERO && fabs(v.z) < NEAR_ZERO;
+}
+
+// Turns the camera towards look_at; lengths and handedness stay as they were before.
+static void apply_look_at(Converter *cv, const Reader *reader, const Token *token) {
+    CameraNode *node = reader->node;
+    Camera *camera = &node->camera;
+    double direction = vec_length(camera->direction), up = vec_length(camera->up),
+           right = vec_length(camera->right);
+    double handedness = vec_dot(vec_cross(camera->up, camera->direction), camera->right);
+    Vec3 towards = vec_sub(node->look_at, camera->location);
+    Loc loc = token_loc(cv, token);
+    if (vec_dot(towards, towards) < NEAR_ZERO)
+        die_at(&loc, "look_at is the same point as the camera's location");
+    towards = vec_normalize(towards);
+    Vec3 across = vec_cross(node->sky, towards);
+    if (vanishes(across)) {
+        if (!reader->old)
+            warn_at(&loc, "the camera looks along the sky vector: its own right vector is used");
+        across = camera->right;
+    }
+    across = vec_normalize(across);
+    camera->up = vec_scale(vec_cross(towards, across), up);
+    camera->direction = vec_scale(towards, direction);
+    camera->right = vec_scale(across, handedness > 0.0 ? right : -right);
+}
+
+// An orthographic picture is as large as the perspective one at look_at.
+static void apply_orthographic(CameraNode *node) {
+    Camera *camera = &node->camera;
+    double distance = vec_length(vec_sub(node->look_at, camera->location)),
+           direction = vec_length(camera->direction);
+    if (distance > NEAR_ZERO && direction > NEAR_ZERO) {
+        camera->right = vec_scale(camera->right, distance / direction);
+        camera->up = vec_scale(camera->up, distance / direction);
+    }
+}
+
+static void move_camera(Camera *camera, const Transform *t) {
+    camera->location = transform_point(t, camera->location);
+    camera->direction = transform_dir(t, camera->direction);
+    camera->up = transform_dir(t, camera->up);
+    camera->right = transform_dir(t, camera->right);
+}
+
+static void move_camera_now(Camera *camera, const Move *move) {
+    if (move->kind == MOVE_TRANSLATE)
+        camera->location = vec_add(camera->location, move->v);
+    else
+        move_camera(camera, &move->t);
+}
+
+// mesh_camera { F F [F] meshes [smooth] }
+static void parse_mesh_camera(Converter *cv) {
+    expect(cv, '{', "mesh_camera");
+    while (starts_expression(cv)) {
+        parse_float(cv);
+        optional_comma(cv);
+    }
+    while (parse_object(cv))
+        optional_comma(cv);
+    accept(cv, KW_smooth);
+    expect(cv, '}', "mesh_camera");
+}
+
+static void parse_type(Converter *cv, Reader *reader) {
+    const Token *token = next_token(cv);
+    reader->type = token->code;
+    reader->node->camera.type =
+        token->code == KW_orthographic ? CAMERA_ORTHOGRAPHIC : CAMERA_PERSPECTIVE;
+    if (token->code == KW_cylinder)
+        parse_float(cv);
+    if (token->code == KW_mesh_camera)
+        parse_mesh_camera(cv);
+    if (token->code != KW_perspective && token->code != KW_orthographic)
+        note_gap(cv, &reader->node->gaps, token,
+                 arena_printf(cv->arena,
+                              "the camera type '%s' is not modelled: the picture is a perspective "
+                              "one",
+                              token->text));
+    if (reader->old && token->code == KW_orthographic)
+        apply_orthographic(reader->node);
+}
+
+static void parse_angle(Converter *cv, Reader *reader, const Token *token) {
+    reader->angle = parse_float(cv);
+    reader->has_angle = true;
+    bool flat = reader->type == KW_perspective || reader->type == KW_orthographic;
+    Loc loc = token_loc(cv, token);
+    if (reader->angle < 0.0)
+        die_at(&loc, "the angle of a camera must not be negative");
+    if (flat && reader->angle >= 180.0)
+        die_at(&loc, "the angle of a camera must be less than 180 degrees");
+    optional_comma(cv);
+    if (reader->type == KW_spherical && starts_expression(cv))
+        parse_float(cv);
+    if (reader->old && reader->type == KW_perspective) {
+        apply_angle(&reader->node->camera, reader->angle);
+        reader->node->camera.angle_deg = reader->angle;
+    }
+}
+
+static bool parse_vectors(Converter *cv, Reader *reader, const Token *token) {
+    CameraNode *node = reader->node;
+    switch (token->code) {
+    case KW_location:
+        next_token(cv);
+        node->camera.location = parse_vector(cv);
+        return true;
+    case KW_direction:
+        next_token(cv);
+        node->camera.direction = parse_vector(cv);
+        return true;
+    case KW_right:
+        next_token(cv);
+        node->camera.right = parse_vector(cv);
+        reader->has_right = true;
+        return true;
+    case KW_up:
+        next_token(cv);
+        node->camera.up = parse_vector(cv);
+        reader->has_up = true;
+        return true;
+    case KW_sky:
+        next_token(cv);
+        node->sky = parse_vector(cv);
+        return true;
+    case KW_look_at:
+        next_token(cv);
+        node->look_at = parse_vector(cv);
+        reader->has_look_at = true;
+        if (reader->old)
+            apply_look_at(cv, reader, token);
+        return true;
+    case KW_angle:
+        next_token(cv);
+        parse_angle(cv, reader, token);
+        return true;
+    default:
+        return false;
+    }
+}
+
+static bool parse_rest(Converter *cv, Reader *reader, const Token *token) {
+    switch (token->code) {
+    case KW_aperture:
+        reader->blur = next_token(cv);
+        reader->aperture = parse_float(cv);
+        return true;
+    case KW_blur_samples:
+        next_token(cv);
+        reader->blur_samples = parse_float(cv);
+        optional_comma(cv);
+        if (starts_expression(cv))
+            reader->blur_samples = parse_float(cv);
+        return true;
+    case KW_focal_point:
+        next_token(cv);
+        parse_vector(cv);
+        return true;
+    case KW_confidence:
+    case KW_variance:
+        next_token(cv);
+        parse_float(cv);
+        return true;
+    case KW_bokeh:
+        next_token(cv);
+        expect(cv, '{', "bokeh");
+        expect(cv, KW_pigment, "bokeh");
+        parse_pigment_block(cv, cv->nodes->default_texture->pigment);
+        expect(cv, '}', "bokeh");
+        return true;
+    case KW_normal:
+        next_token(cv);
+        parse_normal_block(cv, NULL);
+        note_gap(cv, &reader->node->gaps, token,
+                 "the camera's normal is not modelled: the picture is not bent");
+        return true;
+    default:
+        return false;
+    }
+}
+
+static bool parse_item(Converter *cv, Reader *reader) {
+    const Token *token = peek_token(cv);
+    Move move;
+    if (parse_vectors(cv, reader, token) || parse_rest(cv, reader, token))
+        return true;
+    if (parse_move(cv, &move)) {
+        if (reader->old)
+            move_camera_now(&reader->node->camera, &move);
+        else
+            reader->transform = transform_compose(&reader->transform, &move.t);
+        return true;
+    }
+    if (!is_type(token->code))
+        return false;
+    if (!reader->old) {
+        Loc loc = token_loc(cv, token);
+        die_at(&loc, "the camera type '%s' must be the first item of the camera", token->text);
+    }
+    parse_type(cv, reader);
+    return true;
+}
+
+// What version 3.5 and later do at the end, whatever the order of writing.
+static void apply_collected(Converter *cv, const Reader *reader) {
+    CameraNode *node = reader->node;
+    Camera *camera = &node->camera;
+    if (reader->has_angle) {
+        camera->angle_deg = reader->angle;
+        if (reader->angle > 0.0 && reader->angle < 180.0)
+            apply_angle(camera, reader->angle);
+    }
+    if (reader->has_look_at)
+        apply_look_at(cv, reader, peek_token(cv));
+    bool sized = reader->has_up || reader->has_right;
+    if (camera->type == CAMERA_ORTHOGRAPHIC && (!sized || reader->has_angle))
+        apply_orthographic(node);
+    move_camera(camera, &reader->transform);
+}
+
+// Only transforms may follow the name of a camera.
+static CameraNode *parse_named(Converter *cv, const CameraNode *named) {
+    CameraNode *node = arena_copy(cv->arena, named, sizeof *named);
+    Move move;
+    while (parse_move(cv, &move))
+        move_camera_now(&node->camera, &move);
+    return node;
+}
+
+CameraNode *parse_camera_block(Converter *cv) {
+    Nodes *nodes = cv->nodes;
+    expect(cv, '{', "camera");
+    const Value *value = accept_value(cv, VALUE_CAMERA);
+    if (value) {
+        CameraNode *node = parse_named(cv, value->node);
+        expect(cv, '}', "camera after its name");
+        return node;
+    }
+    bool old = cv->version < 350;
+    const CameraNode *base = old && nodes->camera ? nodes->camera : &nodes->default_camera;
+    Reader reader = {.node = arena_copy(cv->arena, base, sizeof *base),
+                     .type = base->camera.type == CAMERA_ORTHOGRAPHIC ? KW_orthographic
+                                                                      : KW_perspective,
+                     .old = old,
+                     .transform = transform_identity()};
+    reader.node->gaps = NULL;
+    if (!old && is_type(peek_token(cv)->code))
+        parse_type(cv, &reader);
+    while (parse_item(cv, &reader)) {
+    }
+    if (!old)
+        apply_collected(cv, &reader);
+    if (reader.aperture != 0.0 && reader.blur_samples > 0.0)
+        note_gap(cv, &reader.node->gaps, reader.blur,
+                 "focal blur is not modelled: the picture is sharp at every distance");
+    expect(cv, '}', "camera");
+    return reader.node;
+}

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: MIT
+// light_source (facts: sdl 4.9, rendering 5). Point and parallel lights are complete; what other
+// kinds would add is noted.
+#include "converter/nodes.h"
+
+void parse_light_data(Converter *cv, ObjectNode *object) {
+    LightNode *node = ARENA_NEW(cv->arena, LightNode);
+    object->light = node;
+    object->modelled = true;
+    object->loc = NULL;
+    node->light.point_at = vec3(0, 0, 1);
+    node->light.location = parse_vector(cv);
+    optional_comma(cv);
+    if (starts_color(cv) || starts_expression(cv))
+        node->light.color = parse_color3(cv); // none at all: black
+}
+
+void light_move(LightNode *node, const Move *move) {
+    Light *light = &node->light;
+    if (move->kind == MOVE_TRANSLATE) {
+        light->location = vec_add(light->location, move->v);
+        light->point_at = vec_add(light->point_at, move->v);
+    } else if (move->kind == MOVE_SCALE) {
+        light->location = vec_mul(light->location, move->v);
+        light->point_at = vec_mul(light->point_at, move->v);
+    } else {
+        light->location = transform_point(&move->t, light->location);
+        light->point_at = transform_point(&move->t, light->point_at);
+    }
+}
+
+static ObjectNode *parse_body(Converter *cv, const char *where) {
+    expect(cv, '{', where);
+    ObjectNode *body = parse_object(cv);
+    if (!body)
+        die_expected(cv, arena_printf(cv->arena, "an object in '%s'", where));
+    parse_object_modifiers(cv, body);
+    expect(cv, '}', where);
+    return body;
+}
+
+// The object stands around the light and throws no shadow.
+static void parse_looks_like(Converter *cv, LightNode *node) {
+    ObjectNode *body = parse_body(cv, "looks_like");
+    Vec3 at = node->light.location;
+    Move move = {.kind = MOVE_TRANSLATE, .v = at, .t = transform_translate(at)};
+    object_move(cv, body, &move);
+    body->object.no_shadow = true;
+    node->looks_like = body;
+}
+
+static void need_direction(Converter *cv, const LightNode *node, const Token *token) {
+    if (node->directed)
+        return;
+    Loc loc = token_loc(cv, token);
+    die_at(&loc, "'%s' needs spotlight%s before it", token->text,
+           token->code == KW_point_at ? ", cylinder or parallel" : " or cylinder");
+}
+
+static bool parse_kind(Converter *cv, LightNode *node, const Token *token) {
+    switch (token->code) {
+    case KW_spotlight:
+        next_token(cv);
+        note_gap(cv, &node->gaps, token,
+                 "spotlight is not modelled: the light shines in all directions");
+        node->directed = true;
+        return true;
+    case KW_cylinder:
+        next_token(cv);
+        note_gap(cv, &node->gaps, token,
+                 "a cylindrical light is not modelled: it shines as a parallel light of any width");
+        node->directed = true;
+        node->light.type = LIGHT_PARALLEL;
+        return true;
+    case KW_parallel:
+        next_token(cv);
+        node->directed = true;
+        node->light.type = LIGHT_PARALLEL;
+        return true;
+    case KW_shadowless:
+        next_token(cv);
+        node->light.shadowless = true;
+        return true;
+    case KW_area_light:
+        next_token(cv);
+        parse_vector(cv);
+        optional_comma(cv);
+        parse_vector(cv);
+        optional_comma(cv);
+        parse_float(cv);
+        optional_comma(cv);
+        parse_float(cv);
+        note_gap(cv, &node->gaps, token, "area_light is not modelled: its shadows have hard edges");
+        return true;
+    default:
+        return false;
+    }
+}
+
+static bool parse_number(Converter *cv, LightNode *node, const Token *token) {
+    switch (token->code) {
+    case KW_point_at:
+        need_direction(cv, node, token);
+        next_token(cv);
+        node->light.point_at = parse_vector(cv);
+        return true;
+    case KW_radius:
+    case KW_falloff:
+    case KW_tightness:
+        need_direction(cv, node, token);
+        next_token(cv);
+        parse_float(cv);
+        return true;
+    case KW_fade_distance:
+        next_token(cv);
+        node->light.fade_distance = (float)parse_float(cv);
+        return true;
+    case KW_fade_power:
+        next_token(cv);
+        node->light.fade_power = (float)parse_float(cv);
+        return true;
+    case KW_adaptive:
+        next_token(cv);
+        parse_float(cv);
+        return true;
+    default:
+        return false;
+    }
+}
+
+static bool parse_rest(Converter *cv, LightNode *node, const Token *token) {
+    switch (token->code) {
+    case KW_jitter:
+    case KW_circular:
+    case KW_orient:
+        next_token(cv);
+        return true;
+    case KW_area_illumination:
+    case KW_media_interaction:
+    case KW_media_attenuation:
+        next_token(cv);
+        parse_optional_bool(cv);
+        return true;
+    case KW_looks_like:
+        next_token(cv);
+        parse_looks_like(cv, node);
+        return true;
+    case KW_projected_through:
+        next_token(cv);
+        parse_body(cv, "projected_through");
+        note_gap(cv, &node->gaps, token,
+                 "projected_through is not modelled: the light shines everywhere");
+        return true;
+    case KW_color_map:
+    case KW_colour_map:
+        next_token(cv);
+        parse_map(cv, MAP_COLOR, false);
+        return true;
+    default:
+        return false;
+    }
+}
+
+// All but transforms and photons, which are modifiers of every object.
+void parse_light_items(Converter *cv, ObjectNode *object) {
+    object_unshare(cv, object);
+    for (;;) {
+        const Token *token = peek_token(cv);
+        if (!parse_kind(cv, object->light, token) && !parse_number(cv, object->light, token) &&
+            !parse_rest(cv, object->light, token) && !parse_object_modifier(cv, object))
+            return;
+    }
+}

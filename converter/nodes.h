@@ -1,0 +1,295 @@
+// SPDX-License-Identifier: MIT
+// What the statements become on their way from the text to the Scene: nodes that keep POV-Ray's
+// order-dependent rules (layers, inheritance, transforms of textures) until the scene is complete.
+//
+// A node in a Value is never changed: whoever edits one edits a copy. Pattern, texture, finish and
+// interior nodes are small and copied at every edit; objects are copied lazily (object_copy).
+// What the scene model cannot hold is noted with its place (Gap, loc) and is only warned of when
+// emit.c meets it in the final scene, once a place.
+#ifndef CONVERTER_NODES_H
+#define CONVERTER_NODES_H
+
+#include "converter/converter.h"
+#include "model/scene.h"
+
+typedef struct Gap {
+    const struct Gap *next; // the one noted before
+    const Loc *loc;
+    const char *text; // "fog is left out: ..."
+} Gap;
+
+// The place of a token, kept.
+const Loc *keep_place(Converter *cv, const Token *token);
+// Puts a gap in front of *list. text is kept as it is.
+void note_gap(Converter *cv, const Gap **list, const Token *token, const char *text);
+
+// ---- transforms: transform.c -------------------------------------------------------------------
+
+// ORDER move: how a shape takes a transform depends on how it was written.
+typedef enum { MOVE_TRANSLATE, MOVE_ROTATE, MOVE_SCALE, MOVE_MATRIX } MoveKind;
+
+struct TextureNode;
+enum { MOVE_CACHE = 32 };
+
+// One transform statement. The cache keeps textures that many objects of a union share shared.
+typedef struct {
+    MoveKind kind;
+    Vec3 v; // as written; MOVE_MATRIX: unused
+    Transform t;
+    struct {
+        const struct TextureNode *from, *to;
+    } cache[MOVE_CACHE];
+} Move;
+
+// translate, rotate, scale, matrix, transform: if the next token is one, consumes the statement.
+bool parse_move(Converter *cv, Move *move);
+// After the keyword `transform`: an identifier or a block.
+Transform parse_transform(Converter *cv);
+
+// ---- patterns: pattern.c, pattern_args.c, map.c, image.c -----------------------------------------
+
+// In which kind of block a pattern stands.
+typedef enum { USE_PIGMENT, USE_NORMAL, USE_TEXTURE, USE_DENSITY } PatternUse;
+const char *use_name(PatternUse use);
+
+typedef struct WarpNode {
+    const struct WarpNode *next; // the one written before
+    const Loc *loc;              // a warp that is not modelled; NULL: a transform
+    Transform transform;
+} WarpNode;
+
+typedef enum { MAP_COLOR, MAP_SLOPE, MAP_PIGMENT, MAP_NORMAL, MAP_TEXTURE, MAP_DENSITY } MapKind;
+
+typedef struct {
+    float value; // position, or weight in `average`
+    Color color; // MAP_COLOR
+    Vec2 slope;  // MAP_SLOPE: height, slope
+    const void *node;
+} MapItem;
+
+// Also the lists of checker and its like: positions 0, 1, 2 ...
+typedef struct {
+    MapKind kind;
+    const MapItem *items;
+    uint32_t count;
+} MapNode;
+
+// What is known of a pattern keyword before its arguments.
+typedef struct {
+    int keyword;        // 0: no pattern, KW_color: one colour
+    PatternType type;   // PATTERN_MODELLED: parsed, but not modelled
+    bool triangle;      // sets triangle_wave
+    bool still;         // sets frequency 0
+    int list;           // takes up to so many items instead of a map
+} PatternInfo;
+
+// A pigment, a normal, a density, or the pattern of a texture.
+typedef struct {
+    const PatternInfo *info;
+    const Loc *loc; // of the keyword, if the pattern is not modelled
+    WaveType wave;
+    float frequency, phase, exponent;
+    Vec3 gradient;
+    const WarpNode *warps;
+    bool turbulent;
+    const Loc *turbulence_loc;
+    const MapNode *map; // NULL: the default one. uv_mapping: one item, the rest of the block
+    Color color;        // one colour
+    bool has_quick_color;
+    Color quick_color;
+    float amount;               // normal: depth
+    const Loc *block_loc;       // normal: of its block
+} PatternNode;
+
+const PatternInfo *pattern_find(int keyword);
+PatternNode pattern_node_default(void);
+void pattern_move(Converter *cv, PatternNode *pattern, const Transform *transform);
+// The contents of a block: [pattern] modifiers, on top of what *pattern holds. Identifiers are the
+// caller's. `texture_map` and its like are read by the functions of texture.c.
+void parse_pattern(Converter *cv, PatternUse use, PatternNode *pattern);
+// Reads the arguments that stand right behind the pattern's keyword (and list items).
+void parse_pattern_arguments(Converter *cv, PatternUse use, PatternNode *pattern);
+// The keyword of a map (color_map ...) at the cursor: its kind; false: there is none.
+bool map_keyword(int code, MapKind *kind);
+// From the '{' to the '}' of a map. `average`: positions are weights and may be missing.
+const MapNode *parse_map(Converter *cv, MapKind kind, bool average);
+const MapNode *parse_pattern_list(Converter *cv, PatternUse use, const PatternInfo *info);
+const MapNode *map_default(Converter *cv, const PatternInfo *info);
+// The block of image_map, bump_map, image_pattern; what height_field and material_map begin with.
+void parse_image_block(Converter *cv, const char *where);
+void parse_image(Converter *cv);
+void parse_image_options(Converter *cv);
+
+// ---- textures: texture.c, finish.c, interior.c ---------------------------------------------------
+
+typedef struct {
+    Finish finish;
+    float ior, caustics; // old places of the interior's values; < 0: not given
+    float refraction;    // 1: none
+    const Gap *gaps;
+} FinishNode;
+
+typedef struct TextureNode {
+    PatternNode pattern;            // plain unless info->keyword is a pattern's
+    const PatternNode *pigment;     // plain
+    const PatternNode *normal;      // plain; NULL: none
+    const FinishNode *finish;       // plain
+    const struct TextureNode *below; // the next layer
+} TextureNode;
+
+typedef struct {
+    Interior interior;
+    float refraction; // old light factor, 1: none
+    const Gap *gaps;
+} InteriorNode;
+
+typedef struct {
+    const TextureNode *texture, *interior_texture;
+    const InteriorNode *interior;
+} MaterialNode;
+
+typedef struct {
+    const Loc *loc;
+} MediaNode;
+
+bool texture_is_plain(const TextureNode *texture);
+// Bodies are what stands between the braces; blocks include them. base: what is edited.
+const PatternNode *parse_pigment_body(Converter *cv, const PatternNode *base);
+const PatternNode *parse_normal_body(Converter *cv, const PatternNode *base); // base may be NULL
+const PatternNode *parse_density_body(Converter *cv, const PatternNode *base);
+const TextureNode *parse_texture_body(Converter *cv);
+const PatternNode *parse_pigment_block(Converter *cv, const PatternNode *base);
+const PatternNode *parse_normal_block(Converter *cv, const PatternNode *base);
+const TextureNode *parse_texture_block(Converter *cv);
+const FinishNode *parse_finish_block(Converter *cv, const FinishNode *base);
+const InteriorNode *parse_interior_block(Converter *cv, const InteriorNode *base);
+void parse_material_block(Converter *cv, MaterialNode *material);
+const MediaNode *parse_media_block(Converter *cv);
+const PatternNode *parse_density_block(Converter *cv);
+// pigment{}, normal{}, finish{} of an object: if the next token is one, edits the top layer.
+bool parse_partial_texture(Converter *cv, const TextureNode **texture);
+// Puts `top` over `below` (may be NULL). Dies at token if one of them is patterned.
+const TextureNode *texture_layer(Converter *cv, const TextureNode *top, const TextureNode *below,
+                                 const Token *token);
+const TextureNode *texture_moved(Converter *cv, const TextureNode *texture, Move *move);
+
+// ---- lights, camera, surroundings: light.c, camera.c, atmosphere.c, settings.c --------------------
+
+typedef struct ObjectNode ObjectNode;
+
+typedef struct {
+    Light light;
+    bool directed; // spotlight, cylinder or parallel was written: point_at may follow
+    ObjectNode *looks_like;
+    const Gap *gaps;
+} LightNode;
+
+typedef struct {
+    Camera camera; // its vectors are final
+    Vec3 sky, look_at;
+    bool has_look_at;
+    const Gap *gaps;
+} CameraNode;
+
+typedef struct PigmentList {
+    const struct PigmentList *next; // the one below
+    const PatternNode *pigment;
+} PigmentList;
+
+typedef struct {
+    const PigmentList *top;
+    Rgb emission;
+    Transform transform;
+} SkySphereNode;
+
+typedef struct { // fog, rainbow
+    const Loc *loc;
+} AtmosphereNode;
+
+CameraNode *parse_camera_block(Converter *cv);
+const SkySphereNode *parse_sky_sphere_block(Converter *cv);
+const AtmosphereNode *parse_fog_block(Converter *cv);
+const AtmosphereNode *parse_rainbow_block(Converter *cv);
+void parse_global_settings(Converter *cv);
+void parse_radiosity_block(Converter *cv);
+void parse_light_data(Converter *cv, ObjectNode *object);
+void parse_light_items(Converter *cv, ObjectNode *object);
+void light_move(LightNode *light, const Move *move);
+
+// ---- objects: object.c, shapes.c, patch.c, shapes_other.c, csg.c, modifiers.c, extent.c -----------
+
+// `object` carries the shape, the transform and the flags in the scene's own form; its texture,
+// interior and children are filled by emit.c.
+struct ObjectNode {
+    ObjectNode *next; // in the list of the parent
+    int keyword;      // of the statement: KW_sphere, KW_union, ...
+    bool modelled;
+    bool surface; // POV-Ray's patch objects: they have no inside
+    Object object;
+    const TextureNode *texture, *interior_texture;
+    const InteriorNode *interior;
+    bool hollow_set, double_set;
+    bool shared; // children, points and light belong to another node too: copy before a change
+    int depth;   // of the tree below
+    ObjectNode *first, *last; // children
+    ObjectNode *bounds, *clips;
+    const Loc *bound_loc, *clip_loc;
+    LightNode *light;
+    const Loc *loc; // of the statement, if it is not modelled
+    const Gap *gaps;
+};
+
+// The next tokens as an object (statement or name), owned by the caller; NULL: there is none.
+ObjectNode *parse_object(Converter *cv);
+ObjectNode *object_create(Converter *cv, int keyword);
+ObjectNode *object_copy(Converter *cv, const ObjectNode *object);
+void object_add_child(Converter *cv, ObjectNode *parent, ObjectNode *child);
+// Gives the object its own children, points and light before they are changed.
+void object_unshare(Converter *cv, ObjectNode *object);
+void object_move(Converter *cv, ObjectNode *object, Move *move);
+void object_invert(Converter *cv, ObjectNode *object);
+// If the next token is a modifier, reads it.
+bool parse_object_modifier(Converter *cv, ObjectNode *object);
+// All modifiers; dies if a rule that holds at the end is broken.
+void parse_object_modifiers(Converter *cv, ObjectNode *object);
+
+// Data behind '{': one function a statement; they leave the cursor at the first modifier.
+typedef void ParseShape(Converter *cv, ObjectNode *object);
+ParseShape *shape_parser(int keyword);       // shapes.c, patch.c; NULL: not one of theirs
+ParseShape *shape_other_parser(int keyword); // shapes_other.c
+ParseShape parse_patch_data;
+void shape_move(ObjectNode *object, const Move *move);
+bool keyword_is_csg(int keyword);
+void parse_csg_data(Converter *cv, ObjectNode *object);
+
+// The axis-aligned box as POV-Ray keeps it (single precision), for min_extent and max_extent; false:
+// an object that is not modelled.
+bool object_extent(Converter *cv, const Value *object, Box *out);
+bool node_extent(const ObjectNode *object, Box *out);
+
+// ---- the whole: statement.c, emit.c --------------------------------------------------------------
+
+typedef struct RootNode {
+    struct RootNode *next;
+    ObjectNode *object;
+    const TextureNode *default_texture; // in force at the end of the statement
+} RootNode;
+
+struct Nodes {
+    const TextureNode *default_texture;
+    CameraNode default_camera;
+    CameraNode *camera; // NULL: none yet
+    RootNode *first, *last;
+    const SkySphereNode *sky_sphere;
+    Settings settings; // version and gamma_mode are decided by emit.c
+    bool gamma_set;    // assumed_gamma was given
+    const Gap *gaps;   // fog, radiosity, ...
+};
+
+// Creates cv->nodes with POV-Ray's defaults.
+void nodes_begin(Converter *cv);
+// What parse_scene_statements gathered as a Scene in cv->arena, complete and validated. Warns of
+// everything in it that is not modelled.
+Scene *emit_scene(Converter *cv);
+
+#endif

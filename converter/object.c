@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: MIT
+// Objects as the statements build them: creation, lazy copies, transforms, inversion, and the entry
+// of every object statement (facts: sdl 4.1, 4.2, 4.4).
+//
+// A copy shares its children and points with the original until one of the two is changed; so a
+// declared tree may be used a thousand times, and grow by itself in a loop, at little cost.
+#include "converter/nodes.h"
+
+// Deeper trees than this come from runaway loops, and would overflow the stack of whoever walks
+// them.
+enum { DEPTH_LIMIT = 2000 };
+
+static bool object_type(int keyword, ObjectType *type) {
+    switch (keyword) {
+    case KW_union:
+    case KW_composite:
+    case KW_light_group:
+        *type = OBJECT_UNION;
+        return true;
+    case KW_merge:
+        *type = OBJECT_MERGE;
+        return true;
+    case KW_bicubic_patch:
+        *type = OBJECT_PATCH;
+        return true;
+    case KW_plane:
+        *type = OBJECT_PLANE;
+        return true;
+    case KW_sphere:
+        *type = OBJECT_SPHERE;
+        return true;
+    case KW_box:
+        *type = OBJECT_BOX;
+        return true;
+    case KW_cylinder:
+        *type = OBJECT_CYLINDER;
+        return true;
+    case KW_cone:
+        *type = OBJECT_CONE;
+        return true;
+    case KW_torus:
+        *type = OBJECT_TORUS;
+        return true;
+    case KW_disc:
+        *type = OBJECT_DISC;
+        return true;
+    case KW_triangle:
+        *type = OBJECT_TRIANGLE;
+        return true;
+    default:
+        return false;
+    }
+}
+
+static bool keyword_is_surface(int keyword) {
+    return keyword == KW_bicubic_patch || keyword == KW_triangle || keyword == KW_smooth_triangle ||
+           keyword == KW_mesh || keyword == KW_mesh2 || keyword == KW_polygon;
+}
+
+ObjectNode *object_create(Converter *cv, int keyword) {
+    ObjectNode *object = ARENA_NEW(cv->arena, ObjectNode);
+    ObjectType type;
+    object->keyword = keyword;
+    object->surface = keyword_is_surface(keyword);
+    object->modelled = object_type(keyword, &type);
+    if (object->modelled)
+        object->object = object_default(type);
+    return object;
+}
+
+ObjectNode *object_copy(Converter *cv, const ObjectNode *object) {
+    ObjectNode *copy = arena_copy(cv->arena, object, sizeof *object);
+    copy->next = NULL;
+    copy->shared = true;
+    return copy;
+}
+
+void object_add_child(Converter *cv, ObjectNode *parent, ObjectNode *child) {
+    if (child->depth >= DEPTH_LIMIT)
+        die_expected(cv, "less than 2000 unions inside one another");
+    if (parent->depth <= child->depth)
+        parent->depth = child->depth + 1;
+    child->next = NULL;
+    if (parent->last)
+        parent->last->next = child;
+    else
+        parent->first = child;
+    parent->last = child;
+}
+
+// Copies a list of siblings and returns its head; *last is its end.
+static ObjectNode *copy_list(Converter *cv, const ObjectNode *list, ObjectNode **last) {
+    ObjectNode *first = NULL, *end = NULL;
+    for (; list; list = list->next) {
+        ObjectNode *copy = object_copy(cv, list);
+        if (end)
+            end->next = copy;
+        else
+            first = copy;
+        end = copy;
+    }
+    if (last)
+        *last = end;
+    return first;
+}
+
+void object_unshare(Converter *cv, ObjectNode *object) {
+    if (!object->shared)
+        return;
+    object->shared = false;
+    object->first = copy_list(cv, object->first, &object->last);
+    object->bounds = copy_list(cv, object->bounds, NULL);
+    object->clips = copy_list(cv, object->clips, NULL);
+    if (object->modelled && object->object.type == OBJECT_PATCH) {
+        PatchShape *patch = &object->object.shape.patch;
+        size_t count = (size_t)(patch->degree_u + 1) * (patch->degree_v + 1);
+        patch->points = arena_copy(cv->arena, patch->points, count * sizeof *patch->points);
+    }
+    if (object->light) {
+        object->light = arena_copy(cv->arena, object->light, sizeof *object->light);
+        if (object->light->looks_like)
+            object->light->looks_like = object_copy(cv, object->light->looks_like);
+    }
+}
+
+void object_move(Converter *cv, ObjectNode *object, Move *move) {
+    object_unshare(cv, object);
+    for (ObjectNode *child = object->first; child; child = child->next)
+        object_move(cv, child, move);
+    for (ObjectNode *bound = object->bounds; bound; bound = bound->next)
+        object_move(cv, bound, move);
+    for (ObjectNode *clip = object->clips; clip; clip = clip->next)
+        object_move(cv, clip, move);
+    if (!object->object.uv_mapping) {
+        object->texture = texture_moved(cv, object->texture, move);
+        object->interior_texture = texture_moved(cv, object->interior_texture, move);
+    }
+    if (object->light) {
+        light_move(object->light, move);
+        if (object->light->looks_like)
+            object_move(cv, object->light->looks_like, move);
+    }
+    shape_move(object, move);
+}
+
+// The inverse of a union is the intersection of the inverses, and the other way round.
+static void invert_csg(Converter *cv, ObjectNode *object) {
+    bool becomes_union = object->keyword == KW_intersection || object->keyword == KW_difference;
+    object_unshare(cv, object);
+    for (ObjectNode *child = object->first; child; child = child->next)
+        if (!child->surface)
+            object_invert(cv, child);
+    object->keyword = becomes_union ? KW_union : KW_intersection;
+    object->modelled = becomes_union;
+    object->object.type = OBJECT_UNION;
+    if (!becomes_union && !object->loc)
+        object->loc = keep_place(cv, peek_token(cv));
+}
+
+void object_invert(Converter *cv, ObjectNode *object) {
+    if (keyword_is_csg(object->keyword)) {
+        invert_csg(cv, object);
+    } else if (object->keyword == KW_plane) {
+        PlaneShape *plane = &object->object.shape.plane;
+        plane->normal = vec_neg(plane->normal);
+        plane->distance = -plane->distance;
+    } else {
+        object->object.inverse = !object->object.inverse;
+    }
+}
+
+// ---- statements
+// -------------------------------------------------------------------------------------
+
+static bool starts_statement(int code) {
+    return shape_parser(code) || shape_other_parser(code) || keyword_is_csg(code) ||
+           code == KW_object || code == KW_light_source || code == KW_light_group;
+}
+
+// object { OBJECT modifiers }
+static ObjectNode *parse_object_statement(Converter *cv) {
+    ObjectNode *object = parse_object(cv);
+    if (!object)
+        die_expected(cv, "an object");
+    return object;
+}
+
+// Whatever stands in the braces before the modifiers. One name alone makes the statement a copy of
+// that object, of whatever kind.
+static ObjectNode *parse_data(Converter *cv, const Token *token) {
+    int code = token->code;
+    const Value *value;
+    if (code == KW_object)
+        return parse_object_statement(cv);
+    if (code != KW_light_group && (value = accept_value(cv, VALUE_OBJECT)))
+        return object_copy(cv, value->node);
+    ObjectNode *object = object_create(cv, code);
+    if (!object->modelled)
+        object->loc = keep_place(cv, token);
+    if (code == KW_light_source)
+        parse_light_data(cv, object);
+    else if (keyword_is_csg(code) || code == KW_light_group)
+        parse_csg_data(cv, object);
+    else if (shape_parser(code))
+        shape_parser(code)(cv, object);
+    else
+        shape_other_parser(code)(cv, object);
+    return object;
+}
+
+ObjectNode *parse_object(Converter *cv) {
+    const Value *value = accept_value(cv, VALUE_OBJECT);
+    if (value)
+        return object_copy(cv, value->node);
+    const Token *token = peek_token(cv);
+    if (!starts_statement(token->code))
+        return NULL;
+    enter_level(cv);
+    next_token(cv);
+    expect(cv, '{', token->text);
+    ObjectNode *object = parse_data(cv, token);
+    if (object->light)
+        parse_light_items(cv, object);
+    parse_object_modifiers(cv, object);
+    if (!next_is(cv, '}') && starts_statement(peek_token(cv)->code))
+        die_expected(cv, arena_printf(cv->arena, "a modifier or '}' in '%s'", token->text));
+    expect(cv, '}', token->text);
+    leave_level(cv);
+    return object;
+}

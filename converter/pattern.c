@@ -1,0 +1,365 @@
+// SPDX-License-Identifier: MIT
+// The contents of pigment{}, normal{}, density{} and of a patterned texture{}: one pattern, then
+// modifiers in any order (facts: sdl 4.6, textures 1.2, 1.6). A pattern keyword changes only the
+// kind and the few fields that belong to it; everything else stays as the base had it.
+#include "converter/nodes.h"
+
+#include <math.h>
+
+#define OTHER PATTERN_MODELLED
+
+static const PatternInfo patterns[] = {
+    {.keyword = 0, .type = PATTERN_PLAIN}, // no pattern: black
+    {.keyword = KW_color, .type = PATTERN_PLAIN},
+    {.keyword = KW_agate, .type = OTHER},
+    {.keyword = KW_aoi, .type = OTHER},
+    {.keyword = KW_average, .type = OTHER},
+    {.keyword = KW_boxed, .type = OTHER},
+    {.keyword = KW_bozo, .type = OTHER},
+    {.keyword = KW_brick, .type = OTHER, .list = 2, .still = true},
+    {.keyword = KW_bump_map, .type = OTHER, .still = true},
+    {.keyword = KW_bumps, .type = OTHER},
+    {.keyword = KW_cells, .type = OTHER},
+    {.keyword = KW_checker, .type = PATTERN_CHECKER, .list = 2, .still = true},
+    {.keyword = KW_crackle, .type = OTHER},
+    {.keyword = KW_cubic, .type = OTHER, .list = 6, .still = true},
+    {.keyword = KW_cylindrical, .type = OTHER},
+    {.keyword = KW_density_file, .type = OTHER},
+    {.keyword = KW_dents, .type = OTHER},
+    {.keyword = KW_facets, .type = OTHER},
+    {.keyword = KW_function, .type = OTHER},
+    {.keyword = KW_gradient, .type = PATTERN_GRADIENT},
+    {.keyword = KW_granite, .type = OTHER},
+    {.keyword = KW_hexagon, .type = OTHER, .list = 3, .still = true},
+    {.keyword = KW_image_map, .type = OTHER, .still = true},
+    {.keyword = KW_image_pattern, .type = OTHER, .still = true},
+    {.keyword = KW_julia, .type = OTHER},
+    {.keyword = KW_leopard, .type = OTHER},
+    {.keyword = KW_magnet, .type = OTHER},
+    {.keyword = KW_mandel, .type = OTHER},
+    {.keyword = KW_marble, .type = OTHER, .triangle = true},
+    {.keyword = KW_material_map, .type = OTHER, .still = true},
+    {.keyword = KW_object, .type = OTHER, .list = 2, .still = true},
+    {.keyword = KW_onion, .type = OTHER},
+    {.keyword = KW_pavement, .type = OTHER},
+    {.keyword = KW_pigment_pattern, .type = OTHER},
+    {.keyword = KW_planar, .type = OTHER},
+    {.keyword = KW_quilted, .type = OTHER, .still = true},
+    {.keyword = KW_radial, .type = OTHER},
+    {.keyword = KW_ripples, .type = OTHER},
+    {.keyword = KW_slope, .type = OTHER},
+    {.keyword = KW_spherical, .type = OTHER},
+    {.keyword = KW_spiral1, .type = OTHER, .triangle = true},
+    {.keyword = KW_spiral2, .type = OTHER, .triangle = true},
+    {.keyword = KW_spotted, .type = OTHER},
+    {.keyword = KW_square, .type = OTHER, .list = 4, .still = true},
+    {.keyword = KW_tiles, .type = OTHER, .still = true},
+    {.keyword = KW_tiling, .type = OTHER},
+    {.keyword = KW_triangular, .type = OTHER, .list = 6, .still = true},
+    {.keyword = KW_uv_mapping, .type = OTHER},
+    {.keyword = KW_waves, .type = OTHER},
+    {.keyword = KW_wood, .type = OTHER, .triangle = true},
+    {.keyword = KW_wrinkles, .type = OTHER},
+};
+
+const PatternInfo *pattern_find(int keyword) {
+    for (size_t i = 0; i < sizeof patterns / sizeof *patterns; i++)
+        if (patterns[i].keyword == keyword)
+            return &patterns[i];
+    return NULL;
+}
+
+const char *use_name(PatternUse use) {
+    static const char *const names[] = {"pigment", "normal", "texture", "density"};
+    return names[use];
+}
+
+PatternNode pattern_node_default(void) {
+    return (PatternNode){.info = pattern_find(0), .frequency = 1, .exponent = 1, .amount = 0.5F};
+}
+
+// Consecutive transforms are one (facts: textures 1.6).
+void pattern_move(Converter *cv, PatternNode *pattern, const Transform *transform) {
+    WarpNode *warp = ARENA_NEW(cv->arena, WarpNode);
+    const WarpNode *head = pattern->warps;
+    if (head && !head->loc)
+        *warp = (WarpNode){.next = head->next,
+                           .transform = transform_compose(&head->transform, transform)};
+    else
+        *warp = (WarpNode){.next = head, .transform = *transform};
+    pattern->warps = warp;
+}
+
+static bool pattern_fits(PatternUse use, int keyword) {
+    switch (keyword) {
+    case 0:
+    case KW_color:
+        return false; // no keywords of patterns
+    case KW_image_map:
+        return use == USE_PIGMENT;
+    case KW_bump_map:
+    case KW_facets:
+        return use == USE_NORMAL;
+    case KW_material_map:
+    case KW_tiles:
+        return use == USE_TEXTURE;
+    default:
+        return true;
+    }
+}
+
+// uv_mapping: the rest of the block is one inner item, evaluated at (u, v, 0); the transforms of
+// the outer one no longer count (facts: textures 1.5).
+static void parse_uv_mapping(Converter *cv, PatternUse use, PatternNode *pattern) {
+    static const MapKind kinds[] = {MAP_PIGMENT, MAP_NORMAL, MAP_TEXTURE, MAP_DENSITY};
+    const TextureNode *standard = cv->nodes->default_texture;
+    MapItem *item = ARENA_NEW(cv->arena, MapItem);
+    MapNode *map = ARENA_NEW(cv->arena, MapNode);
+    switch (use) {
+    case USE_PIGMENT:
+        item->node = parse_pigment_body(cv, standard->pigment);
+        break;
+    case USE_NORMAL:
+        item->node = parse_normal_body(cv, standard->normal);
+        break;
+    case USE_TEXTURE:
+        item->node = parse_texture_body(cv);
+        break;
+    case USE_DENSITY:
+        item->node = parse_density_body(cv, NULL);
+        break;
+    }
+    *map = (MapNode){.kind = kinds[use], .items = item, .count = 1};
+    pattern->map = map;
+}
+
+static bool parse_wave(Converter *cv, PatternNode *pattern, int code) {
+    switch (code) {
+    case KW_ramp_wave:
+        pattern->wave = WAVE_RAMP;
+        break;
+    case KW_triangle_wave:
+        pattern->wave = WAVE_TRIANGLE;
+        break;
+    case KW_sine_wave:
+        pattern->wave = WAVE_SINE;
+        break;
+    case KW_scallop_wave:
+        pattern->wave = WAVE_SCALLOP;
+        break;
+    case KW_cubic_wave:
+        pattern->wave = WAVE_CUBIC;
+        break;
+    case KW_poly_wave:
+        pattern->wave = WAVE_POLY;
+        break;
+    default:
+        return false;
+    }
+    next_token(cv);
+    if (code == KW_poly_wave && starts_expression(cv))
+        pattern->exponent = (float)parse_float(cv);
+    return true;
+}
+
+static bool map_fits(PatternUse use, MapKind kind) {
+    switch (kind) {
+    case MAP_COLOR:
+        return use == USE_PIGMENT || use == USE_DENSITY;
+    case MAP_PIGMENT:
+        return use == USE_PIGMENT;
+    case MAP_SLOPE:
+    case MAP_NORMAL:
+        return use == USE_NORMAL;
+    case MAP_TEXTURE:
+        return use == USE_TEXTURE;
+    case MAP_DENSITY:
+        return use == USE_DENSITY;
+    }
+    return false;
+}
+
+static bool parse_map_modifier(Converter *cv, PatternUse use, PatternNode *pattern) {
+    const Token *token = peek_token(cv);
+    MapKind kind;
+    if (!map_keyword(token->code, &kind))
+        return false;
+    int keyword = pattern->info->keyword;
+    Loc loc = here(cv);
+    if (!map_fits(use, kind))
+        die_at(&loc, "'%s' cannot be used in '%s'", token->text, use_name(use));
+    if (pattern->info->list || keyword == KW_image_map || keyword == KW_color)
+        die_at(&loc, "'%s' cannot be used with '%s'", token->text,
+               keyword == KW_color ? "one colour" : keyword_name(keyword));
+    next_token(cv);
+    pattern->map = parse_map(cv, kind, keyword == KW_average);
+    return true;
+}
+
+// turbulence V. It is one value a pattern, wherever it is written; 0 switches it off.
+static void parse_turbulence(Converter *cv, PatternNode *pattern) {
+    const Token *token = next_token(cv);
+    Vec3 v = parse_vector(cv);
+    pattern->turbulent = v.x != 0.0 || v.y != 0.0 || v.z != 0.0;
+    pattern->turbulence_loc = pattern->turbulent ? keep_place(cv, token) : NULL;
+}
+
+// Numbers of patterns that are not modelled: { keyword, how many at least, how many at most }.
+static bool parse_number_modifier(Converter *cv, int code) {
+    int most = 1;
+    switch (code) {
+    case KW_octaves:
+    case KW_omega:
+    case KW_lambda:
+    case KW_agate_turb:
+    case KW_noise_generator:
+    case KW_mortar:
+    case KW_control0:
+    case KW_control1:
+    case KW_coords:
+    case KW_size:
+    case KW_exponent:
+    case KW_interpolate:
+    case KW_number_of_sides:
+    case KW_number_of_tiles:
+    case KW_pattern:
+    case KW_accuracy:
+        break;
+    case KW_interior: // type and factor; pavement: type
+    case KW_exterior:
+        most = 2;
+        break;
+    default:
+        return false;
+    }
+    next_token(cv);
+    parse_float(cv);
+    if (most > 1) {
+        optional_comma(cv);
+        if (starts_expression(cv))
+            parse_float(cv);
+    }
+    return true;
+}
+
+static bool parse_vector_modifier(Converter *cv, int code) {
+    if (code != KW_brick_size && code != KW_form && code != KW_metric && code != KW_offset)
+        return false;
+    next_token(cv);
+    parse_vector(cv);
+    return true;
+}
+
+// warp { KIND arguments }: kept as a place only.
+static void parse_warp(Converter *cv, PatternNode *pattern) {
+    const Token *token = next_token(cv);
+    expect(cv, '{', "warp");
+    for (;;) {
+        int code = peek_token(cv)->code;
+        if (code == KW_cylindrical || code == KW_spherical || code == KW_toroidal ||
+            code == KW_cubic || code == KW_inverse) {
+            next_token(cv);
+        } else if (code == KW_turbulence || code == KW_repeat || code == KW_offset ||
+                   code == KW_flip || code == KW_orientation) {
+            next_token(cv);
+            parse_vector(cv);
+        } else if (code == KW_black_hole || code == KW_planar) {
+            next_token(cv);
+            if (code == KW_black_hole || starts_expression(cv)) {
+                parse_vector(cv);
+                optional_comma(cv);
+                parse_float(cv);
+            }
+        } else if (code == KW_octaves || code == KW_omega || code == KW_lambda ||
+                   code == KW_strength || code == KW_falloff || code == KW_type ||
+                   code == KW_dist_exp || code == KW_major_radius) {
+            next_token(cv);
+            parse_float(cv);
+        } else if (code != ',') {
+            break;
+        } else {
+            next_token(cv);
+        }
+    }
+    expect(cv, '}', "warp");
+    WarpNode *warp = ARENA_NEW(cv->arena, WarpNode);
+    *warp = (WarpNode){.next = pattern->warps, .loc = keep_place(cv, token)};
+    pattern->warps = warp;
+}
+
+static bool parse_modifier(Converter *cv, PatternUse use, PatternNode *pattern) {
+    Move move;
+    int code = peek_token(cv)->code;
+    switch (code) {
+    case KW_turbulence:
+        parse_turbulence(cv, pattern);
+        return true;
+    case KW_warp:
+        parse_warp(cv, pattern);
+        return true;
+    case KW_frequency:
+        next_token(cv);
+        pattern->frequency = (float)parse_float(cv);
+        return true;
+    case KW_phase:
+        next_token(cv);
+        pattern->phase = (float)parse_float(cv);
+        return true;
+    case KW_quick_color:
+    case KW_quick_colour: {
+        if (use != USE_PIGMENT)
+            return false;
+        next_token(cv);
+        pattern->quick_color = parse_color(cv);
+        Color q = pattern->quick_color;
+        pattern->has_quick_color = q.r != -1.0F && q.g != -1.0F && q.b != -1.0F;
+        return true;
+    }
+    case KW_bump_size:
+        if (use != USE_NORMAL)
+            return false;
+        next_token(cv);
+        pattern->amount = (float)parse_float(cv);
+        return true;
+    case KW_no_bump_scale:
+    case KW_solid:
+        next_token(cv);
+        return true;
+    default:
+        break;
+    }
+    if (parse_wave(cv, pattern, code) || parse_map_modifier(cv, use, pattern) ||
+        parse_number_modifier(cv, code) || parse_vector_modifier(cv, code))
+        return true;
+    if (parse_move(cv, &move)) {
+        pattern_move(cv, pattern, &move.t);
+        return true;
+    }
+    return false;
+}
+
+void parse_pattern(Converter *cv, PatternUse use, PatternNode *pattern) {
+    enter_level(cv);
+    const Token *token = peek_token(cv);
+    const PatternInfo *info = pattern_find(token->code);
+    if ((use == USE_PIGMENT || use == USE_DENSITY) && starts_color(cv)) {
+        pattern->info = pattern_find(KW_color);
+        pattern->loc = NULL;
+        pattern->color = parse_color(cv);
+    } else if (info && pattern_fits(use, token->code)) {
+        next_token(cv);
+        pattern->info = info;
+        pattern->loc = info->type == PATTERN_MODELLED ? keep_place(cv, token) : NULL;
+        if (info->triangle)
+            pattern->wave = WAVE_TRIANGLE;
+        if (info->still)
+            pattern->frequency = 0;
+        if (info->keyword == KW_uv_mapping)
+            parse_uv_mapping(cv, use, pattern);
+        else
+            parse_pattern_arguments(cv, use, pattern);
+    }
+    while (parse_modifier(cv, use, pattern)) {
+    }
+    leave_level(cv);
+}

@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: MIT
+// global_settings{} (facts: sdl 4.11, rendering 3.1).
+#include "converter/nodes.h"
+
+#include <math.h>
+
+// The first one counts.
+static void parse_assumed_gamma(Converter *cv, const Token *token) {
+    Nodes *nodes = cv->nodes;
+    Settings given = nodes->settings;
+    Loc loc = token_loc(cv, token);
+    if (accept(cv, KW_srgb)) {
+        given.gamma_mode = GAMMA_SRGB;
+    } else {
+        given.gamma_mode = GAMMA_POWER;
+        given.assumed_gamma = (float)parse_float(cv);
+        if (!(given.assumed_gamma > 0.0F) || !isfinite(given.assumed_gamma))
+            die_at(&loc, "assumed_gamma must be greater than 0");
+    }
+    if (nodes->gamma_set) {
+        warn_at(&loc, "assumed_gamma was given before: this one is ignored");
+        return;
+    }
+    nodes->settings = given;
+    nodes->gamma_set = true;
+}
+
+static int parse_limited(Converter *cv, const Token *token, int low, int high) {
+    double value = parse_float(cv);
+    if (value >= low && value < high + 1.0)
+        return (int)value;
+    Loc loc = token_loc(cv, token);
+    int used = value >= low ? high : low;
+    warn_at(&loc, "%s must be from %d to %d: %d is used", token->text, low, high, used);
+    return used;
+}
+
+static void parse_charset(Converter *cv) {
+    if (accept(cv, KW_utf8)) {
+        cv->utf8 = true;
+        return;
+    }
+    if (!accept(cv, KW_ascii) && !accept(cv, KW_sys))
+        die_expected(cv, "'ascii', 'utf8' or 'sys'");
+    cv->utf8 = false;
+}
+
+static void parse_two_floats(Converter *cv) {
+    parse_float(cv);
+    optional_comma(cv);
+    if (starts_expression(cv))
+        parse_float(cv);
+}
+
+static bool parse_radiosity_item(Converter *cv) {
+    switch (peek_token(cv)->code) {
+    case KW_count:
+    case KW_nearest_count:
+        next_token(cv);
+        parse_two_floats(cv);
+        return true;
+    case KW_always_sample:
+    case KW_media:
+    case KW_normal:
+    case KW_subsurface:
+        next_token(cv);
+        parse_optional_bool(cv);
+        return true;
+    case KW_load_file:
+    case KW_save_file:
+        next_token(cv);
+        parse_file_name(cv);
+        return true;
+    case KW_adc_bailout:
+    case KW_brightness:
+    case KW_error_bound:
+    case KW_gray_threshold:
+    case KW_low_error_factor:
+    case KW_max_sample:
+    case KW_maximum_reuse:
+    case KW_minimum_reuse:
+    case KW_pretrace_start:
+    case KW_pretrace_end:
+    case KW_recursion_limit:
+        next_token(cv);
+        parse_float(cv);
+        return true;
+    default:
+        return false;
+    }
+}
+
+void parse_radiosity_block(Converter *cv) {
+    expect(cv, '{', "radiosity");
+    while (parse_radiosity_item(cv)) {
+    }
+    expect(cv, '}', "radiosity");
+}
+
+static bool parse_photons_item(Converter *cv) {
+    switch (peek_token(cv)->code) {
+    case KW_radius:
+        next_token(cv);
+        while (starts_expression(cv)) {
+            parse_float(cv);
+            optional_comma(cv);
+        }
+        return true;
+    case KW_gather:
+    case KW_media:
+    case KW_expand_thresholds:
+        next_token(cv);
+        parse_two_floats(cv);
+        return true;
+    case KW_load_file:
+    case KW_save_file:
+        next_token(cv);
+        parse_file_name(cv);
+        return true;
+    case KW_spacing:
+    case KW_count:
+    case KW_jitter:
+    case KW_max_trace_level:
+    case KW_adc_bailout:
+    case KW_autostop:
+        next_token(cv);
+        parse_float(cv);
+        return true;
+    default:
+        return false;
+    }
+}
+
+static void parse_photons_settings(Converter *cv) {
+    expect(cv, '{', "photons");
+    while (parse_photons_item(cv)) {
+    }
+    expect(cv, '}', "photons");
+}
+
+static void parse_subsurface_settings(Converter *cv) {
+    expect(cv, '{', "subsurface");
+    for (;;) {
+        if (accept(cv, KW_samples))
+            parse_two_floats(cv);
+        else if (accept(cv, KW_radiosity))
+            parse_optional_bool(cv);
+        else
+            break;
+    }
+    expect(cv, '}', "subsurface");
+}
+
+static bool parse_number_setting(Converter *cv, const Token *token) {
+    Settings *settings = &cv->nodes->settings;
+    switch (token->code) {
+    case KW_max_trace_level:
+        next_token(cv);
+        settings->max_trace_level = parse_limited(cv, token, 1, 256);
+        return true;
+    case KW_adc_bailout:
+        next_token(cv);
+        settings->adc_bailout = (float)parse_float(cv);
+        return true;
+    case KW_number_of_waves:
+        next_token(cv);
+        settings->number_of_waves = parse_limited(cv, token, 1, 1000000);
+        return true;
+    case KW_noise_generator:
+        next_token(cv);
+        cv->noise_generator = parse_limited(cv, token, 1, 3);
+        cv->noise_generator_set = true;
+        return true;
+    case KW_mm_per_unit:
+    case KW_max_intersections: // without effect
+        next_token(cv);
+        parse_float(cv);
+        return true;
+    case KW_hf_gray_16: // without effect
+        next_token(cv);
+        parse_optional_bool(cv);
+        return true;
+    default:
+        return false;
+    }
+}
+
+static bool parse_setting(Converter *cv) {
+    Nodes *nodes = cv->nodes;
+    const Token *token = peek_token(cv);
+    if (parse_number_setting(cv, token))
+        return true;
+    switch (token->code) {
+    case KW_assumed_gamma:
+        next_token(cv);
+        parse_assumed_gamma(cv, token);
+        return true;
+    case KW_ambient_light:
+        next_token(cv);
+        nodes->settings.ambient_light = parse_color3(cv);
+        return true;
+    case KW_irid_wavelength:
+        next_token(cv);
+        nodes->settings.irid_wavelength = parse_color3(cv);
+        return true;
+    case KW_charset:
+        next_token(cv);
+        parse_charset(cv);
+        return true;
+    case KW_radiosity:
+        next_token(cv);
+        parse_radiosity_block(cv);
+        note_gap(cv, &nodes->gaps, token,
+                 "radiosity is not modelled: surfaces do not light one another");
+        return true;
+    case KW_photons:
+        next_token(cv);
+        parse_photons_settings(cv);
+        note_gap(cv, &nodes->gaps, token,
+                 "photons are not modelled: no light is bundled by glass or mirrors");
+        return true;
+    case KW_subsurface:
+        next_token(cv);
+        parse_subsurface_settings(cv);
+        return true;
+    default:
+        return false;
+    }
+}
+
+void parse_global_settings(Converter *cv) {
+    expect(cv, '{', "global_settings");
+    while (parse_setting(cv)) {
+    }
+    expect(cv, '}', "global_settings");
+}

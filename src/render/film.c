@@ -28,6 +28,9 @@ Film film_create(const Settings *settings, ImageFormat format, int bits, bool gr
 
 int film_channels(const Film *film) { return (film->grayscale ? 1 : 3) + (film->alpha ? 1 : 0); }
 
+// POV-Ray's luminance as its picture files have it: in float throughout, unlike rgb_grey().
+static float grey_of(Rgb c) { return 0.297f * c.r + 0.589f * c.g + 0.114f * c.b; }
+
 static float quantise(const Film *film, float x) {
     float most = (float)((1 << film->bits) - 1);
     float clipped = x > 0.0f ? (x < 1.0f ? x : 1.0f) : 0.0f; // NaN: 0
@@ -37,7 +40,7 @@ static float quantise(const Film *film, float x) {
 void film_develop(const Film *film, Color color, float *values) {
     Rgb c = color_rgb(color);
     int count = film->grayscale ? 1 : 3;
-    float channel[3] = {c.r, c.g, c.b}, grey = rgb_grey(c);
+    float channel[3] = {c.r, c.g, c.b}, grey = grey_of(c);
     if (film->grayscale)
         channel[0] = grey;
 

@@ -128,7 +128,7 @@ static bool apply_row(Parse *parse, const OptionRow *row, bool on, const char *v
 
 static bool refuse(const Parse *parse, const char *word, const char *why) {
     const char *name = option_program_name(parse->program);
-    fprintf(stderr, "%s: error: '%s': %s (%s --help lists what there is)\n", name, word, why, name);
+    fprintf(stderr, "%s: error: '%s': %s (try %s --help)\n", name, word, why, name);
     return false;
 }
 
@@ -243,9 +243,12 @@ static bool read_switch(Parse *parse, const char *word, const char *next, int *u
     bool missing = !*value && (found->kind == OPTION_INT || found->kind == OPTION_NUMBER ||
                                found->kind == OPTION_TEXT);
     if (missing) {
+        bool loose = next && *next && !strchr("+-", *next); // "+W 640": show it as it should be
         char why[160];
         snprintf(why, sizeof why, "the value is glued to the switch, as in +%s%s", found->letters,
-                 found->kind == OPTION_TEXT ? "name" : "3");
+                 loose                        ? next
+                 : found->kind == OPTION_TEXT ? "name"
+                                              : "3");
         return refuse(parse, word, why);
     }
     if (!apply_row(parse, found, word[0] == '+', unquoted(parse, value)))

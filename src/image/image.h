@@ -10,7 +10,7 @@
 
 // Rows from the top, `channels` floats a pixel, as decoded by OpenImageIO (no colour conversion).
 typedef struct {
-    int width, height, channels; // 1 grey, 3 RGB, 4 RGBA
+    int width, height, channels; // 1 grey, 2 grey and alpha, 3 RGB, 4 RGBA
     int bits;                    // per channel in the file read: 8, 16, 32 (float)
     float *pixels;
 } Image;
@@ -32,29 +32,42 @@ bool image_format_of(const char *path, ImageFormat *format); // by extension; fa
 
 typedef struct {
     ImageFormat format;
-    int bits; // 1..16, per channel; stored as 8 or 16 (float formats ignore it)
-    bool grayscale;
+    int bits;        // 1..16, per channel; stored as 8 or 16 (float formats ignore it)
     bool compressed; // TGA
-    double gamma; // for the header: 2.2 sRGB is written as sRGB chunk; 1.0 linear; 0: say nothing
+    double gamma;    // for the header: what the pixels are encoded with; 0: say nothing
+    bool srgb;       // for the header: the sRGB curve, whatever gamma says
     const char *software, *comment; // metadata, may be NULL
 } ImageWriteOptions;
 
+ImageWriteOptions image_write_options_default(void); // PNG, 8 bits, sRGB
+
 // Integer formats: pixels are values 0..1 already encoded and quantised by the caller (k / (2^bits
-// - 1)); written without change. Float formats: linear values. "-" writes to standard output. Dies
-// with a message on failure; the file appears whole or not at all.
+// - 1)); written without change (odd numbers of bits are spread over 8 or 16 by repeating the upper
+// bits, as POV-Ray does). Alpha is not multiplied in. Float formats: linear values, premultiplied.
+// "-" writes to standard output. Dies with a message on failure; the file appears whole or not at
+// all.
 void image_write(const char *path, const Image *image, const ImageWriteOptions *options);
-// Dies with a message when the file cannot be read.
+// Dies with a message when the file cannot be read. More than four channels: the first four.
 Image *image_read(Arena *arena, const char *path);
 
 // Comparison by OpenImageIO's compare(): differences in units of 1 = full range, over all channels.
 typedef struct {
-    double mean, rms, psnr, max;
+    double mean, rms, psnr, max; // psnr is infinite for equal pictures
     int max_x, max_y, max_channel;
     uint64_t warned, failed; // pixels over the two limits
     uint64_t different;      // pixels off by more than one step of 8 bits in some channel
+    uint64_t pixels;
 } ImageDifference;
-// Sizes must be equal (dies if not). fail, warn: limits on the absolute difference.
+// Sizes must be equal (dies if not). fail, warn: limits on the absolute difference. A grey picture
+// counts as three equal channels, a missing alpha as 1. A NaN in one picture only is a difference
+// of 1.
 ImageDifference image_compare(const Image *a, const Image *b, double fail, double warn);
+
+// The largest difference over the channels of each pixel, as a picture of one channel.
+Image *image_difference(Arena *arena, const Image *a, const Image *b);
+// False colours for values 0..1 of a one-channel picture: dark violet to pale yellow, each step
+// lighter than the one before.
+Image *image_false_color(Arena *arena, const Image *values);
 
 // A picture as PNG bytes in memory (8 bits), for data: URLs.
 unsigned char *image_encode_png(Arena *arena, const Image *image, size_t *size);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // POV-Ray's command line -> one struct. facts: sdl 5. The value is glued to its switch, letters in
-// any case, '+' and '-' alike except where a boolean is meant; later words win.
+// any case, '+' and '-' alike except where a boolean is meant; later words win. The INI forms
+// Keyword=value mean the same as the switches.
 #ifndef OPTIONS_OPTIONS_H
 #define OPTIONS_OPTIONS_H
 
@@ -18,21 +19,23 @@ typedef struct {
 
 typedef struct {
     const char *input;   // +I, Input_File_Name=, or a bare name ending in .pov or .json; NULL: none
-    const char *output;  // +O as given; NULL: beside the input
+    const char *output;  // +O as given; NULL: beside the input; qicompare: a folder
     bool output_to_file; // -F turns it off
     int width, height;
-    double start_row, end_row, start_column, end_column; // 1-based inclusive; < 0: not given
+    // 1-based inclusive, or shares of the size (render_area); < 0: not given.
+    double start_row, end_row, start_column, end_column;
+    int block_size; // +BS: side of a tile in pixels, default 32; method 1 depends on it
     bool antialias;
     double antialias_threshold; // default 0.3, clipped to 0..1
     int sampling_method;        // 1, 2
     int antialias_depth;        // 1..9, default 3
     bool jitter;
-    double jitter_amount; // 0..1, default 1
-    double antialias_gamma;
-    int quality; // 0..9
+    double jitter_amount;   // 0..1, default 1
+    double antialias_gamma; // default 2.5
+    int quality;            // 0..9
     ImageFormat format;
-    bool format_given; // else the output's extension decides
-    int bits;          // per channel, default 8
+    bool format_given; // by +F or Output_File_Type=; else the output's extension has decided
+    int bits;          // per channel, 5..16, default 8
     bool grayscale;
     bool compressed;
     bool alpha;        // +UA
@@ -51,7 +54,15 @@ typedef struct {
     bool strict;
     bool binary; // pov2qi
     bool help, show_version;
-    const char **rest; // what follows "--", for qicompare
+    // qicompare only.
+    const char *pictures[2]; // bare names of pictures
+    int picture_count;
+    double fail, fail_percent, warn, warn_percent; // as OpenImageIO's idiff has them
+    const char **shared;                           // the words that povray understands, as given
+    size_t shared_count;
+    const char **own; // the words for qirender alone (--method ...), as given
+    size_t own_count;
+    const char **rest; // what follows "--"
     size_t rest_count;
 } RenderOptions;
 
@@ -67,6 +78,10 @@ bool options_parse(OptionsProgram program, int argc, char **argv, Arena *arena,
 
 // The text of --help for that program, on standard output.
 void options_help(OptionsProgram program);
+
+// The scene that is meant: options->input, or with ".pov" added if only that is there. NULL if none
+// was given.
+const char *options_input_path(const RenderOptions *options, Arena *arena);
 
 // The path to write: options->output with POV-Ray's rules (directory, added extension), or the
 // input's name with the format's extension. "-": standard output.

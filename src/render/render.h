@@ -7,19 +7,29 @@
 #include "image/image.h"
 #include "model/scene.h"
 #include "options/options.h"
+#include "render/sample.h"
 #include "render/world.h"
 
 typedef struct {
     RayStats rays;
     uint64_t pixels, samples; // samples: camera rays traced
+    uint64_t supersampled;    // pixels that got more than their first samples
     uint64_t patches, memory; // bytes of the prepared world
     double prepare_seconds, trace_seconds;
     int threads;
 } RenderStats;
 
+// Dies with a message when the picture is too small or too large for this machine, or when the
+// part to render (+SR +ER +SC +EC) lies outside. To be called before any work.
+void render_check(const RenderOptions *options);
+
+// The part of the picture to render; empty when it ends before it starts. After render_check.
+PixelRect render_area(const RenderOptions *options);
+
 // Renders scene at options' size; the pixels are encoded and quantised for the output format
-// (film.h) and live in arena. options->width, height must be valid.
+// (film.h) and live in arena, and *write gets what the file's header needs. What lies outside the
+// area is black, with +UA transparent.
 Image *render_scene(const Scene *scene, const RenderOptions *options, Arena *arena,
-                    RenderStats *stats);
+                    ImageWriteOptions *write, RenderStats *stats);
 
 #endif

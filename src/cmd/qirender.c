@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: MIT
+// qirender: a scene to a picture. Options -> scene (converted from POV-Ray's language, or read) ->
+// render -> file -> statistics.
+#include "base/diag.h"
+#include "base/progress.h"
+#include "base/version.h"
+#include "converter/convert.h"
+#include "render/render.h"
+
+#include <errno.h>
+#include <signal.h>
+#include <stdio.h>
+#include <string.h>
+#include <strings.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+static void on_interrupt(int number) {
+    (void)number;
+    static const char message[] = "\nqirender: interrupted, nothing written\n";
+    ssize_t written = write(STDERR_FILENO, message, sizeof message - 1);
+    (void)written;
+    _exit(2);
+}
+
+// A long render should not end with the news that its folder cannot be written.
+static void check_output(const char *path, Arena *arena) {
+    struct stat st;
+    if (strcmp(path, "-") == 0)
+        return;
+    if (stat(path, &st) == 0 && S_ISDIR(st.st_mode))
+        die("cannot write '%s': is a directory (a folder's name ends in '/')", path);
+    const char *slash = strrchr(path, '/');
+    const char *folder = slash ? arena_printf(arena, "%.*s", (int)(slash - path + 1), path) : ".";
+    if (access(folder, W_OK) != 0)
+        die("cannot write '%s': %s", path, strerror(errno));
+}
+
+static bool is_scene_file(const char *path) {
+    size_t length = strlen(path);
+    return length > 5 && strcasecmp(path + length - 5, ".json") == 0;
+}
+
+static double cpu_seconds(void) {
+    struct rusage use;
+    getrusage(RUSAGE_SELF, &use);
+    return (double)(use.ru_utime.tv_sec + use.ru_stime.tv_sec) +
+           1e-6 * (double)(use.ru_utime.tv_usec + use.ru_stime.tv_usec);
+}
+
+static double peak_megabytes(void) {
+    struct rusage use;
+    getrusage(RUSAGE_SELF, &use);
+    return (double)use.ru_maxrss / 1024.0;
+}
+
+// ---- statistics
+// -----------------------------------------------------------------------------------
+
+static void print_count(const char *what, uint64_t count) {
+    if (count)
+        fprintf(stderr, "  %-22s %15llu\n", what, (unsigned long long)count);
+}
+
+// A count and what it is of another ("1.07 a ray").
+static void print_share(const char *what, uint64_t count, uint64_t of, const char *unit) {
+    if (count)
+        fprintf(stderr, "  %-22s %15llu   %.3g %s\n", what, (unsigned long long)count,
+                of ? (double)count / (double)of : 0.0, unit);
+}
+
+static void print_statistics(const RenderOptions *o, const RenderStats *s, double read_seconds) {
+    const RayStats *r = &s->rays;
+    const char *rule =
+        "----------------------------------------------------------------------------";
+    fprintf(stderr, "%s\nRender statistics: %d x %d, %s, %d thread%s\n%s\n", rule, o->width,
+            o->height, patch_method_name(o->method), s->threads, s->threads == 1 ? "" : "s", rule);
+    print_count("Pixels", s->pixels);
+    print_count("Pixels supersampled", s->supersampled);
+    print_share("Camera rays", s->samples, s->pixels, "a pixel");
+    print_count("Reflected rays", r->reflected);
+    print_count("Refracted rays", r->refracted);
+    print_count("Transmitted rays", r->transmitted);
+    print_count("Shadow rays", r->shadow);
+
+    uint64_t rays = s->samples + r->reflected + r->refracted + r->transmitted + r->shadow;
+    print_count("Patches", s->patches);
+    print_share("Patch tests", r->patch.patch_tests, rays, "a ray");
+    print_share(o->method == METHOD_FACETS ? "Triangle tests" : "QI steps", r->patch.steps, rays,
+                "a ray");
+    print_share("Newton steps", r->patch.newton, r->patch.hits, "a hit");
+    print_share("Patch hits", r->patch.hits, rays, "a ray");
+    print_count("Other shape tests", r->shape_tests);
+    print_count("Other shape hits", r->shape_hits);
+
+    fprintf(stderr, "%s\n", rule);
+    fprintf(stderr, "  Reading the scene      %15.3f s\n", read_seconds);
+    fprintf(stderr, "  Preparing the patches  %15.3f s   %.1f MB\n", s->prepare_seconds,
+            (double)s->memory / 1e6);
+    fprintf(stderr, "  Tracing                %15.3f s   %.3g rays/s\n", s->trace_seconds,
+            s->trace_seconds > 0 ? (double)rays / s->trace_seconds : 0.0);
+    fprintf(stderr, "  Processor time         %15.3f s   peak memory %.0f MB\n%s\n", cpu_seconds(),
+            peak_megabytes(), rule);
+}
+
+// ---- main
+// -----------------------------------------------------------------------------------------
+
+static void render_file(RenderOptions *o, Arena *arena) {
+    const char *output = options_output_path(o, arena, image_extension(o->format));
+    render_check(o);
+    if (o->output_to_file)
+        check_output(output, arena);
+
+    double start = progress_seconds();
+    const Scene *scene =
+        is_scene_file(o->input) ? scene_read(o->input, arena) : convert_scene(o, arena);
+    double read_seconds = progress_seconds() - start;
+
+    RenderStats stats;
+    ImageWriteOptions write;
+    Image *image = render_scene(scene, o, arena, &write, &stats);
+    write.software = "qipov " QIPOV_VERSION;
+    if (o->output_to_file)
+        image_write(output, image, &write);
+    if (o->verbose) {
+        print_statistics(o, &stats, read_seconds);
+        if (o->output_to_file && strcmp(output, "-") != 0)
+            fprintf(stderr, "%s\n", output);
+    }
+}
+
+int main(int argc, char **argv) {
+    diag_program("qirender");
+    Arena *arena = arena_create();
+    RenderOptions options = options_default();
+    if (!options_parse(PROGRAM_QIRENDER, argc, argv, arena, &options))
+        return 2;
+    if (options.help) {
+        options_help(PROGRAM_QIRENDER);
+        return 0;
+    }
+    if (options.show_version) {
+        puts("qirender " QIPOV_VERSION);
+        return 0;
+    }
+    if (!options.input) {
+        fputs("qirender: error: no scene given (qirender scene.pov; qirender --help)\n", stderr);
+        return 2;
+    }
+    signal(SIGINT, on_interrupt);
+    signal(SIGTERM, on_interrupt);
+    diag_strict(options.strict);
+    diag_verbose(options.verbose);
+    options.input = options_input_path(&options, arena);
+    render_file(&options, arena);
+    arena_destroy(arena);
+    return 0;
+}

@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: MIT
+// The C side of pictures: formats by name, whole files, and the checks that come before a library
+// sees anything.
+#include "image/image.h"
+
+#include "base/array.h"
+#include "base/diag.h"
+#include "base/file.h"
+#include "image/oiio.h"
+
+#include <errno.h>
+#include <math.h>
+#include <string.h>
+#include <strings.h>
+
+// ORDER image_format
+static const struct {
+    const char *extension, *also;
+} formats[] = {
+    {"png", NULL},   {"tga", NULL}, {"ppm", "pgm"}, {"bmp", NULL},
+    {"jpg", "jpeg"}, {"exr", NULL}, {"hdr", NULL},  {"tif", "tiff"},
+};
+
+const char *image_extension(ImageFormat format) { return formats[format].extension; }
+
+bool image_format_of(const char *path, ImageFormat *format) {
+    const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path;
+    const char *dot = strrchr(name, '.');
+    if (!dot)
+        return false;
+    for (size_t i = 0; i < sizeof formats / sizeof *formats; i++) {
+        if (strcasecmp(dot + 1, formats[i].extension) == 0 ||
+            (formats[i].also && strcasecmp(dot + 1, formats[i].also) == 0)) {
+            *format = (ImageFormat)i;
+            return true;
+        }
+    }
+    return false;
+}
+
+ImageWriteOptions image_write_options_default(void) {
+    return (ImageWriteOptions){.format = IMAGE_PNG, .bits = 8, .gamma = 2.2, .srgb = true};
+}
+
+void image_write(const char *path, const Image *image, const ImageWriteOptions *options) {
+    char why[OIIO_WHY];
+    if (strcmp(path, "-") == 0) {
+        bool ok = oiio_encode(image, options, stdout, why);
+        if (!ok || fflush(stdout) != 0)
+            die("cannot write the picture to standard output: %s",
+                !ok && why[0] ? why : strerror(errno));
+        return;
+    }
+    OutputFile *out = file_begin(path);
+    errno = 0;
+    if (!oiio_encode(image, options, file_stream(out), why)) {
+        int error = errno;
+        file_abandon(out);
+        die("cannot write '%s': %s", path, why[0] ? why : strerror(error));
+    }
+    file_commit(out);
+}
+
+// The most pixels a picture to be read may have: 2^28, 16,384 x 16,384. A header of a few bytes can
+// claim much more, and the memory would be asked for before the lie is found.
+static const double MOST_PIXELS = 268435456.0;
+
+Image *image_read(Arena *arena, const char *path) {
+    char why[OIIO_WHY];
+    if (!file_exists(path))
+        die("cannot read '%s': no such file, or not readable", path);
+    int width, height, channels, bits;
+    OiioReader *reader = oiio_open(path, &width, &height, &channels, &bits, why);
+    if (!reader)
+        die("cannot read '%s': %s", path, why);
+    if (width < 1 || height < 1 || channels < 1 || (double)width * height > MOST_PIXELS) {
+        oiio_close(reader);
+        die("cannot read '%s': %d x %d pixels, %d channels", path, width, height, channels);
+    }
+    Image *image = ARENA_NEW(arena, Image);
+    *image = (Image){
+        .width = width, .height = height, .channels = channels < 4 ? channels : 4, .bits = bits};
+    image->pixels =
+        ARENA_ARRAY(arena, float, (size_t)width *(size_t)height *(size_t)image->channels);
+    if (!oiio_read(reader, image->channels, image->pixels, why))
+        die("cannot read '%s': %s", path, why);
+    return image;
+}
+
+// Channel c (0..3: red, green, blue, alpha) of a pixel with `channels` values.
+static float channel_of(const float *pixel, int channels, int c) {
+    if (channels <= 2)
+        return c < 3 ? pixel[0] : channels == 2 ? pixel[1] : 1.0f;
+    return c < channels ? pixel[c] : 1.0f;
+}
+
+// Both pictures brought to the same number of channels; a NaN or infinity in one only, or in both
+// but not alike, becomes a difference of 1.
+static void make_alike(Arena *arena, const Image *a, const Image *b, Image *out_a, Image *out_b) {
+    bool alpha = a->channels % 2 == 0 || b->channels % 2 == 0;
+    bool colour = a->channels > 2 || b->channels > 2;
+    int channels = !colour && !alpha ? 1 : alpha ? 4 : 3;
+    size_t pixels = (size_t)a->width * (size_t)a->height;
+    *out_a = *a;
+    *out_b = *b;
+    out_a->channels = out_b->channels = channels;
+    out_a->pixels = ARENA_ARRAY(arena, float, pixels *(size_t)channels);
+    out_b->pixels = ARENA_ARRAY(arena, float, pixels *(size_t)channels);
+    for (size_t i = 0; i < pixels; i++) {
+        for (int c = 0; c < channels; c++) {
+            float x = channel_of(a->pixels + i * (size_t)a->channels, a->channels, c);
+            float y = channel_of(b->pixels + i * (size_t)b->channels, b->channels, c);
+            if (!isfinite(x) || !isfinite(y)) {
+                bool same = (isnan(x) && isnan(y)) || x == y;
+                x = same ? 0.0f : 1.0f;
+                y = 0.0f;
+            }
+            out_a->pixels[i * (size_t)channels + (size_t)c] = x;
+            out_b->pixels[i * (size_t)channels + (size_t)c] = y;
+        }
+    }
+}
+
+static void require_same_size(const Image *a, const Image *b) {
+    if (a->width != b->width || a->height != b->height)
+        die("the pictures have different sizes: %d x %d and %d x %d", a->width, a->height, b->width,
+            b->height);
+}
+
+Image *image_difference(Arena *arena, const Image *a, const Image *b) {
+    require_same_size(a, b);
+    Arena *scratch = arena_create();
+    Image one, two;
+    make_alike(scratch, a, b, &one, &two);
+    size_t pixels = (size_t)a->width * (size_t)a->height;
+    Image *out = ARENA_NEW(arena, Image);
+    *out = (Image){.width = a->width, .height = a->height, .channels = 1, .bits = 32};
+    out->pixels = ARENA_ARRAY(arena, float, pixels);
+    for (size_t i = 0; i < pixels; i++) {
+        for (int c = 0; c < one.channels; c++) {
+            size_t at = i * (size_t)one.channels + (size_t)c;
+            float off = fabsf(one.pixels[at] - two.pixels[at]);
+            if (off > out->pixels[i])
+                out->pixels[i] = off;
+        }
+    }
+    arena_destroy(scratch);
+    return out;
+}
+
+ImageDifference image_compare(const Image *a, const Image *b, double fail, double warn) {
+    require_same_size(a, b);
+    Arena *scratch = arena_create();
+    Image one, two;
+    make_alike(scratch, a, b, &one, &two);
+    ImageDifference result = {.pixels = (uint64_t)a->width * (uint64_t)a->height};
+    char why[OIIO_WHY];
+    bool ok = oiio_compare(&one, &two, fail, warn, &result, why);
+
+    // One step of 8 bits is 1/255; values read from files carry the rounding of a float.
+    const float step = 1.0f / 255.0f * (1.0f + 1e-4f);
+    const Image *off = image_difference(scratch, &one, &two);
+    for (uint64_t i = 0; i < result.pixels; i++)
+        result.different += off->pixels[i] > step;
+    arena_destroy(scratch);
+    if (!ok)
+        die("cannot compare the pictures: %s", why);
+    return result;
+}
+
+Image *image_false_color(Arena *arena, const Image *values) {
+    Image *colors = ARENA_NEW(arena, Image);
+    *colors = (Image){.width = values->width, .height = values->height, .channels = 3, .bits = 32};
+    colors->pixels = ARENA_ARRAY(arena, float, (size_t)values->width *(size_t)values->height * 3);
+    char why[OIIO_WHY];
+    if (!oiio_false_color(values, colors, why))
+        die("cannot colour the differences: %s", why);
+    return colors;
+}
+
+unsigned char *image_encode_png(Arena *arena, const Image *image, size_t *size) {
+    char *bytes = NULL, why[OIIO_WHY];
+    FILE *out = open_memstream(&bytes, size);
+    if (!out)
+        die("out of memory");
+    const ImageWriteOptions options = image_write_options_default();
+    bool ok = oiio_encode(image, &options, out, why);
+    ok = fclose(out) == 0 && ok;
+    unsigned char *copy = ok ? arena_copy(arena, bytes, *size) : NULL;
+    array_release(bytes);
+    if (!ok)
+        die("cannot encode a picture: %s", why[0] ? why : "out of memory");
+    return copy;
+}

@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: MIT
+// The C++ side of pictures. Every file is encoded in memory first: then one place writes bytes and
+// sees every error of the disk, and standard output works for all formats.
+#include "image/oiio.h"
+
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imagebuf.h>
+#include <OpenImageIO/imagebufalgo.h>
+#include <OpenImageIO/imageio.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <string>
+#include <vector>
+
+struct OiioReader {
+    std::unique_ptr<OIIO::ImageInput> input;
+};
+
+namespace {
+
+// ORDER image_format
+const char *const plugins[] = {"png", "targa", "pnm", "bmp", "jpeg", "openexr", "hdr", "tiff"};
+
+void explain(char why[OIIO_WHY], const std::string &text) {
+    std::string line = text.empty() ? std::string("unknown error") : text;
+    std::replace(line.begin(), line.end(), '\n', ' ');
+    std::snprintf(why, OIIO_WHY, "%s", line.c_str());
+}
+
+bool is_float_format(ImageFormat format) { return format == IMAGE_EXR || format == IMAGE_HDR; }
+
+OIIO::TypeDesc file_type(const ImageWriteOptions &options) {
+    if (options.format == IMAGE_EXR)
+        return OIIO::TypeHalf;
+    if (options.format == IMAGE_HDR)
+        return OIIO::TypeFloat;
+    bool deep = options.bits > 8 && (options.format == IMAGE_PNG || options.format == IMAGE_PPM ||
+                                     options.format == IMAGE_TIFF);
+    return deep ? OIIO::TypeUInt16 : OIIO::TypeUInt8;
+}
+
+// The stored value of k / (2^bits - 1) in `stored` bits: its bits from the top, repeated downwards.
+unsigned spread_bits(float value, int bits, int stored) {
+    float clipped = value > 0.0f ? std::min(value, 1.0f) : 0.0f; // NaN: 0
+    unsigned k =
+        static_cast<unsigned>(std::lround(clipped * static_cast<float>((1u << bits) - 1u)));
+    if (bits >= stored)
+        return k >> (bits - stored);
+    unsigned out = 0;
+    for (int place = stored - bits; place > -bits; place -= bits)
+        out |= place >= 0 ? k << place : k >> -place;
+    return out & ((1u << stored) - 1u);
+}
+
+template <class Integer>
+std::vector<unsigned char> store(const Image &image, int bits, int channels) {
+    size_t pixels = static_cast<size_t>(image.width) * static_cast<size_t>(image.height);
+    std::vector<unsigned char> bytes(pixels * static_cast<size_t>(channels) * sizeof(Integer));
+    Integer *out = reinterpret_cast<Integer *>(bytes.data());
+    const float *in = image.pixels;
+    for (size_t i = 0; i < pixels; i++, in += image.channels)
+        for (int c = 0; c < channels; c++)
+            *out++ = static_cast<Integer>(
+                spread_bits(in[c], bits, static_cast<int>(8 * sizeof(Integer))));
+    return bytes;
+}
+
+void describe(OIIO::ImageSpec &spec, const ImageWriteOptions &options) {
+    spec.attribute("oiio:UnassociatedAlpha", is_float_format(options.format) ? 0 : 1);
+    if (options.software)
+        spec.attribute("Software", options.software);
+    if (options.comment)
+        spec.attribute("ImageDescription", options.comment);
+    if (options.srgb) {
+        spec.attribute("oiio:ColorSpace", "sRGB");
+    } else if (options.gamma == 1.0) {
+        spec.attribute("oiio:ColorSpace", "Linear");
+    } else if (options.gamma > 0.0) {
+        spec.attribute("oiio:ColorSpace", "GammaCorrected");
+        spec.attribute("oiio:Gamma", static_cast<float>(options.gamma));
+    }
+    if (options.format == IMAGE_TGA)
+        spec.attribute("compression", options.compressed ? "rle" : "none");
+    if (options.format == IMAGE_EXR)
+        spec.attribute("compression", "zip");
+    if (options.format == IMAGE_TIFF)
+        spec.attribute("compression", "zip");
+    if (options.format == IMAGE_JPEG) {
+        // Little loss, and none of it in the colours' resolution: these pictures get compared.
+        spec.attribute("compression", "jpeg:95");
+        spec.attribute("jpeg:subsampling", "4:4:4");
+    }
+}
+
+bool encode(const Image &image, const ImageWriteOptions &options, std::vector<unsigned char> &bytes,
+            std::string &error) {
+    std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(plugins[options.format]);
+    if (!output || !output->supports("ioproxy")) {
+        error = output ? "this OpenImageIO cannot encode it in memory" : OIIO::geterror();
+        return false;
+    }
+    // Alpha is dropped where the format has no place for it.
+    int channels = image.channels;
+    if (!output->supports("alpha") && (channels == 2 || channels == 4))
+        channels--;
+    OIIO::TypeDesc type = file_type(options);
+    OIIO::ImageSpec spec(image.width, image.height, channels, type);
+    describe(spec, options);
+
+    OIIO::Filesystem::IOVecOutput proxy(bytes);
+    if (!output->set_ioproxy(&proxy) || !output->open("picture", spec)) {
+        error = output->geterror();
+        return false;
+    }
+    bool ok;
+    if (is_float_format(options.format)) {
+        OIIO::stride_t step = static_cast<OIIO::stride_t>(sizeof(float)) * image.channels;
+        ok = output->write_image(OIIO::TypeFloat, image.pixels, step);
+    } else if (type == OIIO::TypeUInt16) {
+        ok = output->write_image(type, store<uint16_t>(image, options.bits, channels).data());
+    } else {
+        ok = output->write_image(type, store<uint8_t>(image, options.bits, channels).data());
+    }
+    ok = output->close() && ok;
+    if (!ok)
+        error = output->geterror();
+    return ok;
+}
+
+OIIO::ImageBuf wrap(const Image &image) {
+    return OIIO::ImageBuf(
+        OIIO::ImageSpec(image.width, image.height, image.channels, OIIO::TypeFloat), image.pixels);
+}
+
+} // namespace
+
+bool oiio_encode(const Image *image, const ImageWriteOptions *options, FILE *out,
+                 char why[OIIO_WHY]) noexcept {
+    why[0] = '\0';
+    try {
+        std::vector<unsigned char> bytes;
+        std::string error;
+        if (!encode(*image, *options, bytes, error)) {
+            explain(why, error);
+            return false;
+        }
+        return std::fwrite(bytes.data(), 1, bytes.size(), out) == bytes.size();
+    } catch (const std::exception &failure) {
+        explain(why, failure.what());
+        return false;
+    }
+}
+
+OiioReader *oiio_open(const char *path, int *width, int *height, int *channels, int *bits,
+                      char why[OIIO_WHY]) noexcept {
+    try {
+        OIIO::ImageSpec hints;
+        hints.attribute("oiio:UnassociatedAlpha", 1);
+        std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(path, &hints);
+        if (!input) {
+            explain(why, OIIO::geterror());
+            return nullptr;
+        }
+        const OIIO::ImageSpec &spec = input->spec();
+        *width = spec.width;
+        *height = spec.height;
+        *channels = spec.nchannels;
+        *bits = static_cast<int>(8 * spec.format.basesize());
+        return new OiioReader{std::move(input)};
+    } catch (const std::exception &failure) {
+        explain(why, failure.what());
+        return nullptr;
+    }
+}
+
+bool oiio_read(OiioReader *reader, int channels, float *pixels, char why[OIIO_WHY]) noexcept {
+    std::unique_ptr<OiioReader> owner(reader);
+    try {
+        if (owner->input->read_image(0, 0, 0, channels, OIIO::TypeFloat, pixels))
+            return true;
+        explain(why, owner->input->geterror());
+    } catch (const std::exception &failure) {
+        explain(why, failure.what());
+    }
+    return false;
+}
+
+void oiio_close(OiioReader *reader) noexcept { delete reader; }
+
+bool oiio_compare(const Image *a, const Image *b, double fail, double warn, ImageDifference *result,
+                  char why[OIIO_WHY]) noexcept {
+    try {
+        const OIIO::ImageBuf one = wrap(*a), two = wrap(*b);
+        OIIO::ImageBufAlgo::CompareResults found = OIIO::ImageBufAlgo::compare(
+            one, two, static_cast<float>(fail), static_cast<float>(warn));
+        if (found.error) {
+            explain(why, one.has_error() ? one.geterror() : OIIO::geterror());
+            return false;
+        }
+        result->mean = found.meanerror;
+        result->rms = found.rms_error;
+        result->psnr = found.PSNR;
+        result->max = found.maxerror;
+        result->max_x = found.maxx;
+        result->max_y = found.maxy;
+        result->max_channel = found.maxc;
+        result->warned = found.nwarn;
+        result->failed = found.nfail;
+        return true;
+    } catch (const std::exception &failure) {
+        explain(why, failure.what());
+        return false;
+    }
+}
+
+bool oiio_false_color(const Image *values, Image *colors, char why[OIIO_WHY]) noexcept {
+    try {
+        OIIO::ImageBuf in = wrap(*values), out = wrap(*colors);
+        if (OIIO::ImageBufAlgo::color_map(out, in, 0, "inferno"))
+            return true;
+        explain(why, out.geterror());
+    } catch (const std::exception &failure) {
+        explain(why, failure.what());
+    }
+    return false;
+}

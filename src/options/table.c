@@ -1,0 +1,362 @@
+// SPDX-License-Identifier: MIT
+// The options themselves (facts: sdl 5.2), and the few whose values need a look of their own.
+#include "options/table.h"
+
+#include <ctype.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+// ---- values that are more than a number
+// -----------------------------------------------------------
+
+static bool complain(Parse *parse, const char *what) {
+    snprintf(parse->why, sizeof parse->why, "%s", what);
+    return false;
+}
+
+// +A, +A0.x: POV-Ray takes no other spelling of the threshold.
+static bool apply_antialias(Parse *parse, const OptionRow *row, bool on, const char *value) {
+    (void)row;
+    double threshold;
+    if (*value) {
+        if (strncmp(value, "0.", 2) != 0 || !option_number(value, &threshold))
+            return complain(parse,
+                            "the threshold must be written with a leading \"0.\", as in +A0.3");
+        parse->options->antialias_threshold = threshold;
+    }
+    parse->options->antialias = on;
+    return true;
+}
+
+static bool apply_antialias_flag(Parse *parse, const OptionRow *row, bool on, const char *value) {
+    (void)row, (void)on;
+    parse->options->antialias = option_truth(value);
+    return true;
+}
+
+static bool apply_jitter(Parse *parse, const OptionRow *row, bool on, const char *value) {
+    (void)row;
+    double amount;
+    if (*value) {
+        if (!option_number(value, &amount))
+            return complain(parse, "the amount must be a number, as in +J0.5");
+        parse->options->jitter_amount = fmin(fmax(amount, 0.0), 1.0);
+    }
+    parse->options->jitter = on;
+    return true;
+}
+
+// [type letter][bits or 'g'], as in N16.
+static bool read_format(Parse *parse, const char *value) {
+    static const struct {
+        char letter;
+        ImageFormat format;
+        bool compressed, grayscale;
+    } types[] = {
+        {'N', IMAGE_PNG, false, true},  {'T', IMAGE_TGA, false, false},
+        {'C', IMAGE_TGA, true, false},  {'P', IMAGE_PPM, false, true},
+        {'B', IMAGE_BMP, false, false}, {'J', IMAGE_JPEG, false, false},
+        {'E', IMAGE_EXR, false, false}, {'H', IMAGE_HDR, false, false},
+    };
+    RenderOptions *o = parse->options;
+    for (size_t i = 0; i < sizeof types / sizeof *types; i++) {
+        if (toupper((unsigned char)*value) != types[i].letter)
+            continue;
+        int bits = o->bits;
+        bool grey = strcasecmp(value + 1, "g") == 0;
+        if (grey && !types[i].grayscale)
+            return complain(parse, "'g' (greyscale) goes with N (PNG) and P (PPM) only");
+        if (value[1] && !grey && !option_integer(value + 1, &bits))
+            return complain(parse,
+                            "after the type letter comes a number of bits or 'g', as in +FN16");
+        o->format = types[i].format;
+        o->compressed = types[i].compressed;
+        o->grayscale = grey;
+        o->format_given = true;
+        o->bits = bits < 5 ? 5 : bits > 16 ? 16 : bits;
+        return true;
+    }
+    return complain(parse,
+                    "the type letter is one of N (PNG), T, C (TGA), P (PPM), B (BMP), J (JPEG),"
+                    " E (EXR), H (HDR)");
+}
+
+static bool apply_format(Parse *parse, const OptionRow *row, bool on, const char *value) {
+    (void)row;
+    if (*value && !read_format(parse, value))
+        return false;
+    parse->options->output_to_file = on;
+    return true;
+}
+
+static bool apply_format_keyword(Parse *parse, const OptionRow *row, bool on, const char *value) {
+    (void)row, (void)on;
+    return read_format(parse, value);
+}
+
+static bool apply_file_gamma(Parse *parse, const OptionRow *row, bool on, const char *value) {
+    (void)row, (void)on;
+    double gamma = 0;
+    if (strcasecmp(value, "srgb") != 0 && (!option_number(value, &gamma) || gamma < 0.01))
+        return complain(parse, "the gamma is a positive number or sRGB");
+    parse->options->file_gamma = gamma;
+    return true;
+}
+
+static bool apply_declare(Parse *parse, const OptionRow *row, bool on, const char *value) {
+    (void)row, (void)on;
+    const char *equals = strchr(value, '=');
+    double number;
+    bool named = isalpha((unsigned char)*value) || *value == '_';
+    for (const char *p = value; equals && p < equals; p++)
+        named = named && (isalnum((unsigned char)*p) || *p == '_');
+    if (!equals || !named || !option_number(equals + 1, &number))
+        return complain(parse, "it is written Declare=Name=number");
+
+    // POV-Ray hands the value on with six digits.
+    char digits[40];
+    snprintf(digits, sizeof digits, "%.6g", number);
+    RenderOptions *o = parse->options;
+    OptionDeclare *grown = ARENA_ARRAY(parse->arena, OptionDeclare, o->declare_count + 1);
+    if (o->declare_count)
+        memcpy(grown, o->declares, o->declare_count * sizeof *grown);
+    char *name = arena_strdup(parse->arena, value);
+    name[equals - value] = '\0';
+    grown[o->declare_count++] = (OptionDeclare){name, strtod(digits, NULL)};
+    o->declares = grown;
+    return true;
+}
+
+static bool apply_library(Parse *parse, const OptionRow *row, bool on, const char *value) {
+    (void)row, (void)on;
+    if (!*value)
+        return complain(parse, "it needs a folder, as in +Linclude");
+    RenderOptions *o = parse->options;
+    const char **grown = ARENA_ARRAY(parse->arena, const char *, o->library_path_count + 1);
+    if (o->library_path_count)
+        memcpy(grown, o->library_paths, o->library_path_count * sizeof *grown);
+    grown[o->library_path_count++] = value;
+    o->library_paths = grown;
+    return true;
+}
+
+static bool apply_clock(Parse *parse, const OptionRow *row, bool on, const char *value) {
+    (void)row, (void)on;
+    double clock;
+    if (!option_number(value, &clock))
+        return complain(parse, "the clock must be a number, as in +K0.5");
+    parse->options->clock = (double)(float)clock;
+    parse->options->clock_given = true;
+    return true;
+}
+
+static bool apply_version(Parse *parse, const OptionRow *row, bool on, const char *value) {
+    (void)row, (void)on;
+    double version;
+    if (!option_number(value, &version) || version < 1.0 || version > 3.8)
+        return complain(parse,
+                        "the version of the language lies between 1.0 and 3.8, as in +MV3.7");
+    parse->options->version = (int)lround(100.0 * version);
+    return true;
+}
+
+static bool apply_display(Parse *parse, const OptionRow *row, bool on, const char *value) {
+    (void)row;
+    if (strlen(value) > 2)
+        return complain(parse, "after +D come at most two letters for the display");
+    parse->options->display = on;
+    return true;
+}
+
+static bool apply_dither(Parse *parse, const OptionRow *row, bool on, const char *value) {
+    if (!on || (row->keyword && *value && !option_truth(value)))
+        return true;
+    return complain(parse, "dithering is not supported");
+}
+
+static bool apply_method(Parse *parse, const OptionRow *row, bool on, const char *value) {
+    (void)row, (void)on;
+    if (patch_method_parse(value, &parse->options->method))
+        return true;
+    size_t at = (size_t)snprintf(parse->why, sizeof parse->why, "the methods are");
+    for (int i = 0; i < METHOD_COUNT && at < sizeof parse->why; i++)
+        at += (size_t)snprintf(parse->why + at, sizeof parse->why - at, "%s %s", i ? "," : "",
+                               patch_method_name((PatchMethod)i));
+    return false;
+}
+
+static bool apply_tolerance(Parse *parse, const OptionRow *row, bool on, const char *value) {
+    (void)row, (void)on;
+    double tolerance;
+    if (!option_number(value, &tolerance) || tolerance < 1e-15 || tolerance > 1.0)
+        return complain(parse, "the tolerance is a share of the patch's diameter, 1e-15 to 1");
+    parse->options->tolerance = tolerance;
+    return true;
+}
+
+// ---- the table
+// ------------------------------------------------------------------------------------
+
+#define FIELD(name) .offset = offsetof(RenderOptions, name)
+#define CLIP(least, most) .low = (least), .high = (most)
+#define HEADING(text)                                                                              \
+    { .kind = OPTION_HEADING, .programs = IN_ALL, .help = (text) }
+#define DRAWS (IN_QIRENDER | IN_QICOMPARE)
+#define IGNORED(switch_letters, ini, what)                                                         \
+    {                                                                                              \
+        .kind = OPTION_IGNORED, .letters = (switch_letters), .keyword = (ini), .value = (what),    \
+        .programs = IN_ALL                                                                         \
+    }
+#define UNSUPPORTED(switch_letters, ini)                                                           \
+    {                                                                                              \
+        .kind = OPTION_UNSUPPORTED, .letters = (switch_letters), .keyword = (ini),                 \
+        .programs = IN_ALL                                                                         \
+    }
+
+// Where one switch sets two things in the INI form, the second stands below it without letters.
+const OptionRow option_rows[] = {
+    HEADING("Input and output"),
+    {OPTION_TEXT, "I", "Input_File_Name", NULL, "name", IN_ALL, FIELD(input),
+     .help = "the scene; .pov is added if need be"},
+    {OPTION_TEXT, "O", "Output_File_Name", "output", "name", IN_ALL, FIELD(output),
+     .help = "the file to write, or a folder if it ends in '/'; - is standard output"},
+    {OPTION_SPECIAL, "F", NULL, NULL, "[type][bits|g]", DRAWS, .apply = apply_format,
+     .help = "type N PNG, T TGA, C packed TGA, P PPM, B BMP, J JPEG, E EXR, H HDR; bits of each "
+             "colour (8); g greyscale (N, P). -F writes no file"},
+    {OPTION_SPECIAL, NULL, "Output_File_Type", NULL, "type", DRAWS, .apply = apply_format_keyword},
+    {OPTION_FLAG, NULL, "Output_to_File", NULL, NULL, DRAWS, FIELD(output_to_file)},
+    {OPTION_INT, NULL, "Bits_Per_Color", NULL, "n", DRAWS, FIELD(bits), CLIP(5, 16)},
+    {OPTION_FLAG, NULL, "Grayscale_Output", NULL, NULL, DRAWS, FIELD(grayscale)},
+    {OPTION_FLAG, "UA", "Output_Alpha", NULL, NULL, DRAWS, FIELD(alpha),
+     .help = "where nothing is, the picture is transparent"},
+    {OPTION_SPECIAL, NULL, "File_Gamma", NULL, "x", DRAWS, .apply = apply_file_gamma,
+     .help = "the gamma of the file: a number, or sRGB (default)"},
+    {OPTION_SPECIAL, "L", "Library_Path", NULL, "folder", IN_ALL, .apply = apply_library,
+     .help = "where includes are looked for; may be repeated; so is a bare folder/"},
+    {OPTION_SPECIAL, NULL, "Declare", NULL, "name=x", IN_ALL, .apply = apply_declare,
+     .help = "a number that the scene can use"},
+    {OPTION_SPECIAL, "K", "Clock", NULL, "x", IN_ALL, .apply = apply_clock,
+     .help = "the value of `clock`"},
+    {OPTION_SPECIAL, "MV", "Version", NULL, "x", IN_ALL, .apply = apply_version,
+     .help = "the version of the language before the scene's #version"},
+    {OPTION_FLAG, NULL, NULL, "binary", NULL, IN_POV2QI, FIELD(binary),
+     .help = "large arrays to a second file"},
+
+    HEADING("Size and part of the picture"),
+    {OPTION_INT, "W", "Width", NULL, "n", IN_ALL, FIELD(width), CLIP(-1e9, 1e9),
+     .help = "pixels across (800)"},
+    {OPTION_INT, "H", "Height", NULL, "n", IN_ALL, FIELD(height), CLIP(-1e9, 1e9),
+     .help = "pixels down (600)"},
+    {OPTION_NUMBER, "SC", "Start_Column", NULL, "x", DRAWS, FIELD(start_column), CLIP(0, 1e9),
+     .help = "the first column, from 1, or a share below 1; the rest stays black"},
+    {OPTION_NUMBER, "EC", "End_Column", NULL, "x", DRAWS, FIELD(end_column), CLIP(0, 1e9),
+     .help = "the last column, or a share up to 1"},
+    {OPTION_NUMBER, "SR", "Start_Row", NULL, "x", DRAWS, FIELD(start_row), CLIP(0, 1e9),
+     .help = "the first row"},
+    {OPTION_NUMBER, "ER", "End_Row", NULL, "x", DRAWS, FIELD(end_row), CLIP(0, 1e9),
+     .help = "the last row"},
+
+    HEADING("Quality"),
+    {OPTION_SPECIAL, "A", NULL, NULL, "[0.x]", DRAWS, .apply = apply_antialias,
+     .help = "anti-aliasing where colours differ by 0.x (0.3); -A off"},
+    {OPTION_SPECIAL, NULL, "Antialias", NULL, "on|off", DRAWS, .apply = apply_antialias_flag},
+    {OPTION_NUMBER, NULL, "Antialias_Threshold", NULL, "x", DRAWS, FIELD(antialias_threshold),
+     CLIP(0, 1)},
+    {OPTION_INT, "AM", "Sampling_Method", NULL, "n", DRAWS, FIELD(sampling_method), CLIP(1, 2),
+     .help = "1 compares neighbours (default), 2 corners, adaptively"},
+    {OPTION_INT, "R", "Antialias_Depth", NULL, "n", DRAWS, FIELD(antialias_depth), CLIP(1, 9),
+     .help = "samples a side (3), 1 to 9"},
+    {OPTION_SPECIAL, "J", NULL, NULL, "[x]", DRAWS, .apply = apply_jitter,
+     .help = "jitter of the samples, 0 to 1 (1); -J off"},
+    {OPTION_FLAG, NULL, "Jitter", NULL, NULL, DRAWS, FIELD(jitter)},
+    {OPTION_NUMBER, NULL, "Jitter_Amount", NULL, "x", DRAWS, FIELD(jitter_amount), CLIP(0, 1)},
+    {OPTION_NUMBER, "AG", "Antialias_Gamma", NULL, "x", DRAWS, FIELD(antialias_gamma),
+     CLIP(0.01, 100), .help = "the gamma in which colours are compared (2.5)"},
+    {OPTION_INT, "Q", "Quality", NULL, "n", DRAWS, FIELD(quality), CLIP(0, 9),
+     .help = "0 quick colours ... 4 shadows ... 9 everything (default)"},
+    {OPTION_SPECIAL, NULL, NULL, "method", "name", DRAWS, .apply = apply_method,
+     .help = "how patches are met: qi (default), qi-paper, facets (POV-Ray's triangles)"},
+    {OPTION_SPECIAL, NULL, NULL, "tolerance", "x", DRAWS, .apply = apply_tolerance,
+     .help = "the largest error of a hit, as a share of its patch's diameter (1e-9)"},
+
+    HEADING("Comparing"),
+    {OPTION_NUMBER, NULL, NULL, "fail", "x", IN_QICOMPARE, FIELD(fail), CLIP(0, 1e9),
+     .help = "a pixel fails when a channel differs by more than x (1e-6; full range is 1)"},
+    {OPTION_NUMBER, NULL, NULL, "failpercent", "x", IN_QICOMPARE, FIELD(fail_percent), CLIP(0, 100),
+     .help = "so many percent of the pixels may fail (0)"},
+    {OPTION_NUMBER, NULL, NULL, "warn", "x", IN_QICOMPARE, FIELD(warn), CLIP(0, 1e9),
+     .help = "likewise for a warning (1e-6)"},
+    {OPTION_NUMBER, NULL, NULL, "warnpercent", "x", IN_QICOMPARE, FIELD(warn_percent), CLIP(0, 100),
+     .help = "likewise for a warning (0)"},
+
+    HEADING("The run"),
+    {OPTION_INT, "WT", "Work_Threads", NULL, "n", IN_ALL, FIELD(threads), CLIP(0, 512),
+     .help = "threads (0: as many as there are cores); the picture is the same"},
+    {OPTION_INT, "BS", "Render_Block_Size", NULL, "n", DRAWS, FIELD(block_size), CLIP(4, 1 << 20),
+     .help = "side of a tile (32); method 1 of anti-aliasing depends on it"},
+    {OPTION_FLAG, "V", "Verbose", NULL, NULL, IN_ALL, FIELD(verbose),
+     .help = "progress and statistics (default); -V silent"},
+    {OPTION_SPECIAL, "D", NULL, NULL, NULL, IN_ALL, .apply = apply_display,
+     .help = "taken for POV-Ray's sake: there is no window"},
+    {OPTION_FLAG, NULL, "Display", NULL, NULL, IN_ALL, FIELD(display)},
+    {OPTION_FLAG, "P", "Pause_When_Done", NULL, NULL, IN_ALL, FIELD(pause),
+     .help = "likewise: without a window nothing waits"},
+    {OPTION_FLAG, NULL, NULL, "strict", NULL, IN_ALL, FIELD(strict),
+     .help = "what is not modelled is an error instead of a warning"},
+    {OPTION_FLAG, NULL, NULL, "help", NULL, IN_ALL, FIELD(help), .help = "this text"},
+    {OPTION_FLAG, NULL, NULL, "version", NULL, IN_ALL, FIELD(show_version),
+     .help = "the version of this program"},
+
+    // Buffers, bounding, previews, consoles: no picture of ours depends on them.
+    IGNORED("MB", "Bounding", "n"),
+    IGNORED(NULL, "Bounding_Threshold", "n"),
+    IGNORED("BM", "Bounding_Method", "n"),
+    IGNORED("UR", "Remove_Bounds", NULL),
+    IGNORED("SU", "Split_Unions", NULL),
+    IGNORED("UL", "Light_Buffer", NULL),
+    IGNORED("UV", "Vista_Buffer", NULL),
+    IGNORED("UD", "Draw_Vistas", NULL),
+    IGNORED("C", "Continue_Trace", NULL),
+    IGNORED("X", "Test_Abort", "n"),
+    IGNORED(NULL, "Test_Abort_Count", "n"),
+    IGNORED("SP", "Preview_Start_Size", "n"),
+    IGNORED("EP", "Preview_End_Size", "n"),
+    IGNORED("WL", "Warning_Level", "n"),
+    IGNORED("GA", "All_Console", "name"),
+    IGNORED("GD", "Debug_Console", "name"),
+    IGNORED("GF", "Fatal_Console", "name"),
+    IGNORED("GR", "Render_Console", "name"),
+    IGNORED("GS", "Statistic_Console", "name"),
+    IGNORED("GW", "Warning_Console", "name"),
+    IGNORED(NULL, "All_File", "name"),
+    IGNORED(NULL, "Debug_File", "name"),
+    IGNORED(NULL, "Fatal_File", "name"),
+    IGNORED(NULL, "Render_File", "name"),
+    IGNORED(NULL, "Statistic_File", "name"),
+    IGNORED(NULL, "Warning_File", "name"),
+    IGNORED("RFI", "Radiosity_File_Name", "name"),
+    IGNORED("RFO", NULL, "name"),
+    IGNORED("RVP", "Radiosity_Vain_Pretrace", NULL),
+    IGNORED("QR", "High_Reproducibility", NULL),
+    IGNORED(NULL, "Display_Gamma", "x"),
+    IGNORED(NULL, "Compression", "n"),
+    IGNORED(NULL, "Dither_Method", "name"),
+
+    {OPTION_SPECIAL, "TH", "Dither", NULL, NULL, IN_ALL, .apply = apply_dither},
+    UNSUPPORTED("KFI", "Initial_Frame"),
+    UNSUPPORTED("KFF", "Final_Frame"),
+    UNSUPPORTED("KI", "Initial_Clock"),
+    UNSUPPORTED("KF", "Final_Clock"),
+    UNSUPPORTED("KC", "Cyclic_Animation"),
+    UNSUPPORTED("SF", "Subset_Start_Frame"),
+    UNSUPPORTED("EF", "Subset_End_Frame"),
+    UNSUPPORTED("STP", "Frame_Step"),
+    UNSUPPORTED("UF", "Field_Render"),
+    UNSUPPORTED("UO", "Odd_Field"),
+    UNSUPPORTED("HI", "Include_Header"),
+    UNSUPPORTED("GI", "Create_Ini"),
+};
+const size_t option_row_count = sizeof option_rows / sizeof *option_rows;

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+// The one table of all options: parsing, help and suggestions are driven by it.
+#ifndef OPTIONS_TABLE_H
+#define OPTIONS_TABLE_H
+
+#include "options/options.h"
+
+// ORDER option_kind (apply_row in options.c)
+typedef enum {
+    OPTION_HEADING,     // a line of the help
+    OPTION_FLAG,        // bool: +X on, -X off; a word --x without value: on
+    OPTION_INT,         // clipped to low..high
+    OPTION_NUMBER,      // clipped to low..high
+    OPTION_TEXT,        // const char *
+    OPTION_SPECIAL,     // `apply` decides
+    OPTION_IGNORED,     // POV-Ray's; changes no picture of ours
+    OPTION_UNSUPPORTED, // POV-Ray's; would change the picture, and cannot be done here
+} OptionKind;
+
+// Programs that take an option.
+enum {
+    IN_QIRENDER = 1 << PROGRAM_QIRENDER,
+    IN_POV2QI = 1 << PROGRAM_POV2QI,
+    IN_QICOMPARE = 1 << PROGRAM_QICOMPARE,
+    IN_ALL = IN_QIRENDER | IN_POV2QI | IN_QICOMPARE,
+};
+
+typedef struct Parse Parse;
+typedef struct OptionRow OptionRow;
+
+struct OptionRow {
+    OptionKind kind;
+    const char *letters; // after '+' or '-', upper case; NULL: no switch
+    const char *keyword; // before '='; NULL: no INI form
+    const char *word;    // after "--"; NULL: none
+    const char *value;   // what follows, as the help shows it; NULL: nothing (INI: on, off)
+    unsigned programs;
+    size_t offset; // of the field in RenderOptions
+    double low, high;
+    // OPTION_SPECIAL: value is never NULL; on is false after '-'. Fills parse->why and returns
+    // false when the value cannot be meant.
+    bool (*apply)(Parse *parse, const OptionRow *row, bool on, const char *value);
+    const char *help; // NULL: not shown
+};
+
+extern const OptionRow option_rows[];
+extern const size_t option_row_count;
+
+// One command line being read.
+struct Parse {
+    OptionsProgram program;
+    RenderOptions *options;
+    Arena *arena;
+    char why[160]; // what is wrong with a value
+};
+
+// The whole text as a number; false (and *out untouched) if it is none, or not finite.
+bool option_number(const char *text, double *out);
+bool option_integer(const char *text, int *out); // out of range: the nearest int
+// on, yes, true, 1 ... are true; anything else is false, as for POV-Ray.
+bool option_truth(const char *text);
+const char *option_program_name(OptionsProgram program);
+
+#endif

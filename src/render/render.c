@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: MIT
+// The picture is cut into tiles of POV-Ray's size and order; threads take the next free one. Each
+// thread has its own tracer and sampler, and a tile's pixels depend on nothing but the tile.
+#include "render/render.h"
+
+#include "base/diag.h"
+#include "base/progress.h"
+#include "render/film.h"
+#include "render/trace.h"
+
+#include <limits.h>
+#include <math.h>
+#include <omp.h>
+#include <unistd.h>
+
+// A pixel's memory until its file is written: the colour (20 bytes), the developed values (16), the
+// bytes for the encoder (8) and the encoder's own (8 or so, at worst a little more than stored).
+enum { PIXEL_BYTES = 64 };
+
+void render_check(const RenderOptions *o) {
+    if (o->width < 1 || o->height < 1)
+        die("a picture of %d x %d pixels cannot be rendered: +W and +H must be at least 1",
+            o->width, o->height);
+    double pixels = (double)o->width * o->height, bytes = pixels * PIXEL_BYTES;
+    double machine = (double)sysconf(_SC_PHYS_PAGES) * (double)sysconf(_SC_PAGESIZE);
+    if (pixels > INT_MAX)
+        die("a picture of %d x %d pixels cannot be rendered: the limit is %d pixels in all",
+            o->width, o->height, INT_MAX);
+    if (machine > 0 && bytes > machine)
+        die("a picture of %d x %d pixels cannot be rendered: it needs %.1f GB (%d bytes a pixel), "
+            "this machine has %.1f GB",
+            o->width, o->height, bytes / 1e9, PIXEL_BYTES, machine / 1e9);
+
+    PixelRect area = render_area(o);
+    if (area.left < 0 || area.left >= o->width)
+        die("the start column (+SC%g) lies outside the picture", o->start_column);
+    if (area.right < 1 || area.right > o->width)
+        die("the end column (+EC%g) lies outside the picture", o->end_column);
+    if (area.top < 0 || area.top >= o->height)
+        die("the start row (+SR%g) lies outside the picture", o->start_row);
+    if (area.bottom < 1 || area.bottom > o->height)
+        die("the end row (+ER%g) lies outside the picture", o->end_row);
+}
+
+// A start below 1 and an end up to 1 are shares of the size; else they count from 1, both
+// inclusive. Single precision, as POV-Ray hands its options around. Both clipped to what an int
+// holds.
+static int first_of(double start, int size) {
+    double s = (double)(float)start;
+    if (start < 0)
+        return 0;
+    return (int)fmin(s < 1.0 ? floor(size * s) : floor(s) - 1.0, INT_MAX);
+}
+
+static int past_of(double end, int size) {
+    double e = (double)(float)end;
+    if (end < 0)
+        return size;
+    return (int)fmin(e <= 1.0 ? floor(size * e) : floor(e), INT_MAX);
+}
+
+PixelRect render_area(const RenderOptions *o) {
+    return (PixelRect){.left = first_of(o->start_column, o->width),
+                       .top = first_of(o->start_row, o->height),
+                       .right = past_of(o->end_column, o->width),
+                       .bottom = past_of(o->end_row, o->height)};
+}
+
+static SampleOptions sample_options(const Scene *scene, const RenderOptions *o) {
+    SampleOptions s = {.method = o->antialias ? o->sampling_method : 0,
+                       .depth = o->antialias_depth,
+                       .threshold = (double)(float)o->antialias_threshold,
+                       .jitter = o->jitter ? (double)(float)o->jitter_amount : 0.0};
+    s.eye =
+        transfer_between(curve_working(&scene->settings), curve_power((float)o->antialias_gamma));
+    return s;
+}
+
+static void add_stats(RayStats *sum, const RayStats *one) {
+    sum->primary += one->primary;
+    sum->reflected += one->reflected;
+    sum->refracted += one->refracted;
+    sum->transmitted += one->transmitted;
+    sum->shadow += one->shadow;
+    sum->shape_tests += one->shape_tests;
+    sum->shape_hits += one->shape_hits;
+    sum->patch.patch_tests += one->patch.patch_tests;
+    sum->patch.steps += one->patch.steps;
+    sum->patch.newton += one->patch.newton;
+    sum->patch.hits += one->patch.hits;
+}
+
+static Color trace_with(void *tracer, const Ray *ray) { return tracer_trace(tracer, ray); }
+
+// The tiles of one render, and what its threads share.
+typedef struct {
+    const Scene *scene;
+    const RenderOptions *options;
+    const Shading *shading;
+    PixelRect area;
+    int block, across, count;
+    Color *picture;
+    Progress progress;
+} Job;
+
+static PixelRect tile_at(const Job *job, int i) {
+    PixelRect t = {.left = job->area.left + i % job->across * job->block,
+                   .top = job->area.top + i / job->across * job->block};
+    int right = job->area.right - t.left, bottom = job->area.bottom - t.top;
+    t.right = t.left + (right < job->block ? right : job->block);
+    t.bottom = t.top + (bottom < job->block ? bottom : job->block);
+    return t;
+}
+
+static void render_tiles(Job *job, RenderStats *stats) {
+    const RenderOptions *o = job->options;
+    const SampleOptions samples = sample_options(job->scene, o);
+#pragma omp parallel num_threads(stats->threads)
+    {
+        Tracer *tracer = tracer_create(job->shading);
+        Sampler *sampler =
+            sampler_create(&samples, &job->scene->camera, o->width, o->height, job->block);
+#pragma omp for schedule(dynamic, 1)
+        for (int i = 0; i < job->count; i++) {
+            PixelRect tile = tile_at(job, i);
+            sampler_tile(sampler, tile, trace_with, tracer, job->picture);
+            progress_add(&job->progress,
+                         (uint64_t)(tile.right - tile.left) * (uint64_t)(tile.bottom - tile.top));
+        }
+#pragma omp critical(render_stats)
+        {
+            RayStats own = tracer_stats(tracer);
+            add_stats(&stats->rays, &own);
+            stats->samples += sampler_rays(sampler);
+            stats->supersampled += sampler_pixels(sampler);
+        }
+        sampler_destroy(sampler);
+        tracer_destroy(tracer);
+    }
+}
+
+static Image *develop(const Film *film, const Color *picture, const RenderOptions *o,
+                      Arena *arena) {
+    Image *image = ARENA_NEW(arena, Image);
+    *image = (Image){.width = o->width,
+                     .height = o->height,
+                     .channels = film_channels(film),
+                     .bits = film->floats     ? 32
+                             : film->bits > 8 ? 16
+                                              : 8};
+    size_t channels = (size_t)image->channels, width = (size_t)o->width;
+    image->pixels = ARENA_ARRAY(arena, float, width *(size_t)o->height *channels);
+#pragma omp parallel for schedule(static)
+    for (int y = 0; y < o->height; y++)
+        for (size_t x = 0; x < width; x++) {
+            size_t at = (size_t)y * width + x;
+            film_develop(film, picture[at], image->pixels + at * channels);
+        }
+    return image;
+}
+
+Image *render_scene(const Scene *scene, const RenderOptions *o, Arena *arena,
+                    ImageWriteOptions *write, RenderStats *stats) {
+    *stats = (RenderStats){.threads = o->threads > 0 ? o->threads : omp_get_num_procs()};
+
+    // Prepare the world.
+    double start = progress_seconds();
+    PatchSetOptions patches = patchset_options_default();
+    patches.method = o->method;
+    patches.tolerance = o->tolerance;
+    World *world = world_create(scene, &patches);
+    const TraceOptions trace = {.quality = o->quality, .alpha = o->alpha};
+    Shading *shading = shading_create(scene, world, &trace);
+    stats->memory = world_memory(world);
+    for (uint32_t i = 0; i < scene->object_count; i++)
+        stats->patches += scene->objects[i].type == OBJECT_PATCH;
+    stats->prepare_seconds = progress_seconds() - start;
+
+    // Where nothing is rendered there is nothing: transparent when the file can say so.
+    start = progress_seconds();
+    Arena *scratch = arena_create();
+    size_t pixels = (size_t)o->width * (size_t)o->height;
+    Job job = {.scene = scene, .options = o, .shading = shading, .area = render_area(o)};
+    job.picture = ARENA_ARRAY(scratch, Color, pixels);
+    for (size_t i = 0; o->alpha && i < pixels; i++)
+        job.picture[i].transmit = 1.0f;
+
+    // Render the tiles.
+    int wide = job.area.right - job.area.left, high = job.area.bottom - job.area.top;
+    if (wide > 0 && high > 0) {
+        int longest = wide > high ? wide : high;
+        job.block = o->block_size < longest ? o->block_size : longest;
+        job.across = (wide + job.block - 1) / job.block;
+        job.count = job.across * ((high + job.block - 1) / job.block);
+        stats->pixels = (uint64_t)wide * (uint64_t)high;
+        if (stats->threads > job.count)
+            stats->threads = job.count;
+        job.progress = progress_begin("rendering", stats->pixels, o->verbose);
+        render_tiles(&job, stats);
+        progress_end(&job.progress);
+    }
+    stats->trace_seconds = progress_seconds() - start;
+
+    // Develop the film.
+    Film film =
+        film_create(&scene->settings, o->format, o->bits, o->grayscale, o->alpha, o->file_gamma);
+    Image *image = develop(&film, job.picture, o, arena);
+    *write = (ImageWriteOptions){.format = o->format,
+                                 .bits = film.bits,
+                                 .compressed = o->compressed,
+                                 .gamma = film.header_gamma,
+                                 .srgb = film.header_srgb};
+    arena_destroy(scratch);
+    shading_destroy(shading);
+    world_destroy(world);
+    return image;
+}

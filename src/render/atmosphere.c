@@ -25,6 +25,11 @@ static Color sky_layered(const Shading *shading, Vec3 dir, bool alpha) {
         through = rgb_mul(through, color_through(c));
     }
     Color back = scene->settings.background;
+    if (!shading->options.alpha) {
+        // A picture without alpha shows what is not transmitted, over black.
+        Rgb shown = rgb_scale(color_rgb(back), 1.0 - back.transmit);
+        back = (Color){shown.r, shown.g, shown.b, 0.0f, 0.0f};
+    }
     if (!alpha)
         back.filter = back.transmit = 0.0f;
     Rgb own = rgb_scale(color_rgb(back), (float)(1.0 - back.filter - back.transmit));

@@ -12,9 +12,33 @@
 // POV-Ray takes depths > SHADE_SHADOW_TOL; our queries take t >= t_min.
 static double shadow_t_min(void) { return nextafter(SHADE_SHADOW_TOL, 1.0); }
 
+// The bodies that swallow light and that the shadow ray has crossed an odd number of times: it is
+// inside those and those of the surface's own ray, but not inside both. Only fading needs it.
+typedef struct {
+    uint32_t bodies[64]; // more of them around each other: the innermost do not fade
+    uint32_t count;
+} Crossed;
+
+static bool has_crossed(const Crossed *crossed, uint32_t body) {
+    for (uint32_t i = 0; i < crossed->count; i++)
+        if (crossed->bodies[i] == body)
+            return true;
+    return false;
+}
+
+static void cross(Crossed *crossed, uint32_t body) {
+    for (uint32_t i = 0; i < crossed->count; i++)
+        if (crossed->bodies[i] == body) {
+            crossed->bodies[i] = crossed->bodies[--crossed->count];
+            return;
+        }
+    if (crossed->count < sizeof crossed->bodies / sizeof crossed->bodies[0])
+        crossed->bodies[crossed->count++] = body;
+}
+
 // What the surface at hit lets through; false when nothing.
 static bool surface_filter(const Shading *shading, const Ray *ray, const InteriorList *inside,
-                           const WorldHit *hit, Rgb *color) {
+                           const WorldHit *hit, Crossed *crossings, Rgb *color) {
     const ObjectInfo *info = &shading->objects[hit->object];
     if (info->opaque)
         return false;
@@ -37,8 +61,11 @@ static bool surface_filter(const Shading *shading, const Ray *ray, const Interio
         if (interior != NULL && interior->caustics != 0.0f)
             through = rgb_scale(through, 1.0 + pow(fabs(cosine), interior->caustics));
     }
-    if (interior != NULL && interior->fade_power > 0.0f && interior_inside(inside, info->body))
-        through = rgb_mul(through, refract_fade(interior, hit->t));
+    if (interior != NULL && interior->fade_power > 0.0f) {
+        if (interior_inside(inside, info->body) != has_crossed(crossings, info->body))
+            through = rgb_mul(through, refract_fade(interior, hit->t));
+        cross(crossings, info->body);
+    }
     *color = rgb_mul(*color, through);
     return true;
 }
@@ -56,9 +83,10 @@ void shadow_filter(Tracer *tracer, Ray ray, double distance, const InteriorList 
         return;
     }
     WorldHit hit;
+    Crossed crossings = {.count = 0};
     while (world_intersect(shading->world, &ray, t_min, distance - SHADE_SHADOW_TOL, RAY_SHADOW,
                            &tracer->stats, &hit)) {
-        if (!surface_filter(shading, &ray, inside, &hit, color)) {
+        if (!surface_filter(shading, &ray, inside, &hit, &crossings, color)) {
             *color = black;
             return;
         }

@@ -7,8 +7,8 @@
 #include <string.h>
 
 // Rays passed straight through cost no level, so a stack of transparent surfaces nests as deep as
-// it is thick. The frames of this many nested rays stay within 2 MB of stack (measured: 1.0 kB
-// each, 3.3 kB under the sanitizers); what lies behind them is black.
+// it is thick. The frames of this many nested rays take 2.3 MB of stack (gcc 12, -O3: 1.15 kB a
+// ray; 2.2 kB under the sanitizers); what lies behind them is black.
 static const uint32_t NESTING_LIMIT = 2000;
 
 static Quality quality_of(int level) {

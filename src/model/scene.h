@@ -62,8 +62,8 @@ typedef struct {
     Vec3 point_at; // parallel: the light travels along point_at - location everywhere
     Rgb color;
     bool shadowless; // no shadow test, diffuse only
-    float fade_distance;
-    float fade_power;
+    double fade_distance;
+    double fade_power;
 } Light;
 
 // ---- textures -------------------------------------------------------------------------------
@@ -133,7 +133,8 @@ typedef struct {
     float specular, roughness; // roughness as written (the exponent is 1 / roughness)
     float metallic;
     Rgb reflection_min, reflection_max;
-    float reflection_falloff, reflection_exponent, reflection_metallic;
+    float reflection_falloff, reflection_metallic;
+    double reflection_exponent; // as written; what is reflected is raised to 1 / it
     bool reflection_fresnel;
     bool conserve_energy;
     float irid, irid_thickness, irid_turbulence;

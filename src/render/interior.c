@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+// The list of bodies a ray is inside of (facts: rendering 4.6). Leaving the newest body gives back
+// the parent's chain; leaving an older one puts a node in front that cancels it.
+#include "render/interior.h"
+
+uint32_t body_of(const Scene *scene, uint32_t object) {
+    uint32_t interior = scene->objects[object].interior;
+    return interior != NO_INDEX ? interior : scene->interior_count + object;
+}
+
+const Interior *body_interior(const Scene *scene, uint32_t body) {
+    return body < scene->interior_count ? &scene->interiors[body] : NULL;
+}
+
+float body_ior(const Scene *scene, uint32_t body) {
+    const Interior *interior = body_interior(scene, body);
+    return interior != NULL ? interior->ior : 1.0f;
+}
+
+bool interior_inside(const InteriorList *list, uint32_t body) {
+    for (; list != NULL; list = list->outer)
+        if (list->body == body)
+            return !list->left;
+    return false;
+}
+
+// Is the body entered at node still around, seen from the newest end of the list?
+static bool is_current(const InteriorList *list, const InteriorList *node) {
+    for (; list != node; list = list->outer)
+        if (list->body == node->body)
+            return false;
+    return !node->left;
+}
+
+// The chain from the last body entered and not left, or NULL.
+static const InteriorList *innermost(const InteriorList *list) {
+    for (const InteriorList *node = list; node != NULL; node = node->outer)
+        if (is_current(list, node))
+            return node;
+    return NULL;
+}
+
+// The last one that is still around when `body` is taken away; NULL: the open.
+static const InteriorList *innermost_but(const InteriorList *list, uint32_t body) {
+    for (const InteriorList *node = list; node != NULL; node = node->outer)
+        if (node->body != body && is_current(list, node))
+            return node;
+    return NULL;
+}
+
+double interior_cross(const Scene *scene, const InteriorList *list, uint32_t body,
+                      InteriorList *node, const InteriorList **after) {
+    const InteriorList *last = innermost(list);
+    float ior = body_ior(scene, body);
+    if (last != NULL && last->body == body) {
+        const InteriorList *next = innermost_but(list, body);
+        if (last == list) {
+            *after = list->outer;
+        } else {
+            *node = (InteriorList){list, body, true};
+            *after = next == NULL ? NULL : node;
+        }
+        // POV-Ray keeps the indices as float: between two bodies the quotient is rounded to float,
+        // against the open (a double 1) it is not.
+        return next == NULL ? (double)ior : (double)(ior / body_ior(scene, next->body));
+    }
+    if (interior_inside(list, body)) {
+        // Overlapping bodies: the other one was taken to begin where this one still went on.
+        *node = (InteriorList){list, body, true};
+        *after = node;
+        return 1.0;
+    }
+    *node = (InteriorList){list, body, false};
+    *after = node;
+    return last == NULL ? 1.0 / ior : (double)(body_ior(scene, last->body) / ior);
+}
+
+double interior_relative_ior(const Scene *scene, const InteriorList *list, uint32_t body) {
+    const InteriorList *last = innermost(list);
+    float ior = body_ior(scene, body);
+    if (last == NULL)
+        return ior;
+    if (!interior_inside(list, body))
+        return ior / body_ior(scene, last->body);
+    if (innermost_but(list, body) == NULL)
+        return 1.0 / ior;
+    return body_ior(scene, last->body) / ior;
+}

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: MIT
+// A hit becomes a colour (facts: rendering 4.2, 4.3, 4.6): the texture's layers from the top, each
+// with its ambient, emission and lights, as long as something shines through; then what is seen
+// through all of them; then what each layer reflects.
+#include "render/shading.h"
+
+#include <assert.h>
+#include <math.h>
+
+uint32_t surface_texture(const Object *object, double normal_dot_dir) {
+    bool inside = normal_dot_dir > 0.0 && object->interior_texture != NO_INDEX;
+    return inside ? object->interior_texture : object->texture;
+}
+
+// What the layers leave for the rest of the hit.
+typedef struct {
+    Rgb color;   // their own light
+    Rgb through; // the product of what they let through
+    double translucency;
+    bool found;          // some layer had a colour here
+    uint32_t first, end; // their reflections on the tracer's stack
+} Layers;
+
+// How bright a layer's own colour is next to what it lets through. The older form is kept by
+// POV-Ray for older scenes.
+static double opacity(const Shading *shading, Color c) {
+    if (!shading->legacy)
+        return (float)(1.0 - c.filter - c.transmit);
+    float m = c.r > c.g ? c.r : c.g;
+    m = m > c.b ? m : c.b;
+    return 1.0 - (c.filter * m + c.transmit);
+}
+
+static Rgb layer_light(Tracer *tracer, const LitLayer *layer) {
+    const Finish *finish = layer->finish;
+    Rgb ambient = rgb_mul(rgb_mul(layer->color, finish->ambient),
+                          tracer->shading->scene->settings.ambient_light);
+    Rgb sum = rgb_scale(ambient, layer->opacity);
+    sum = rgb_add(sum, rgb_scale(rgb_mul(layer->color, finish->emission), layer->opacity));
+    lights_add(tracer, layer, &sum);
+    return sum;
+}
+
+static Rgb conserve_energy(Rgb through, Rgb reflectivity) {
+    double r = 1.0 - reflectivity.r, g = 1.0 - reflectivity.g, b = 1.0 - reflectivity.b;
+    return rgb_mul(through, rgb((float)(r < 1.0 ? r : 1.0), (float)(g < 1.0 ? g : 1.0),
+                                (float)(b < 1.0 ? b : 1.0)));
+}
+
+static void shade_layer(Tracer *tracer, const Surface *surface, const TexturePoint *at,
+                        uint32_t index, Layers *layers) {
+    const Shading *shading = tracer->shading;
+    const Layer *layer = &surface->texture->layers[index];
+    Color c = {0};
+    bool found = pigment_color(shading->scene, layer->pigment, at, &c);
+    layers->found |= found;
+    Rgb reflectivity = {0};
+    if (shading->quality.ambient_only) {
+        layers->color = color_rgb(c);
+    } else {
+        LitLayer lit = {surface, &layer->finish, surface->normal, color_rgb(c),
+                        opacity(shading, c)};
+        LayerReflection reflection = {.weight = surface->path->weight * layers->translucency};
+        reflect_layer(shading, surface, lit.finish, lit.normal, lit.color, &reflection);
+        reflectivity = reflection.reflectivity;
+        layers->color = rgb_add(layers->color, rgb_mul(layer_light(tracer, &lit), layers->through));
+        if (reflectivity.r != 0.0f || reflectivity.g != 0.0f || reflectivity.b != 0.0f)
+            tracer->reflections[layers->end++] = reflection;
+    }
+    if (found) {
+        layers->through = rgb_mul(layers->through, color_through(c));
+        if (layer->finish.conserve_energy)
+            layers->through = conserve_energy(layers->through, reflectivity);
+    }
+    double grey = fabsf(rgb_grey(layers->through));
+    layers->translucency = grey < 1.0 ? grey : 1.0;
+}
+
+static Layers shade_layers(Tracer *tracer, const Surface *surface, const TexturePoint *at) {
+    double bailout = tracer->shading->scene->settings.adc_bailout;
+    Layers layers = {.through = {1.0f, 1.0f, 1.0f}, .translucency = 1.0};
+    layers.first = layers.end = tracer->reflection_top;
+    lights_reset(tracer);
+    for (uint32_t i = 0; i < surface->texture->layer_count && layers.translucency > bailout; i++)
+        shade_layer(tracer, surface, at, i, &layers);
+    return layers;
+}
+
+// Adds what is seen through the surface; returns whether it was totally reflected instead.
+static bool add_transmitted(Tracer *tracer, const Surface *surface, const Layers *layers,
+                            Color *color) {
+    const Path *path = surface->path;
+    Rgb through = layers->through;
+    double high = fmax(fabs(through.r), fmax(fabs(through.g), fabs(through.b)));
+    Color seen;
+    // Every layer has the surface's normal: nothing in a Scene perturbs it.
+    bool total = refract_trace(tracer, surface, &surface->texture->layers[0].finish,
+                               surface->normal, (float)(path->weight * high), &seen);
+    Rgb fade = rgb(1.0f, 1.0f, 1.0f);
+    const Interior *interior = body_interior(tracer->shading->scene, surface->body);
+    if (interior != NULL && interior_inside(path->inside, surface->body))
+        fade = refract_fade(interior, surface->hit->t);
+    Rgb light = rgb_mul(fade, color_rgb(seen));
+    if (!total) {
+        color->transmit = rgb_grey(fade) * seen.transmit;
+        if (layers->found) {
+            light = rgb_mul(light, through);
+            color->transmit = (float)(color->transmit * layers->translucency);
+        }
+    }
+    color->r += light.r, color->g += light.g, color->b += light.b;
+    return total;
+}
+
+static void add_reflected(Tracer *tracer, const Surface *surface, const Layers *layers, bool total,
+                          Color *color) {
+    for (uint32_t i = layers->first; i < layers->end; i++) {
+        const LayerReflection *reflection = &tracer->reflections[i];
+        Vec3 d = vec_sub(surface->normal, reflection->normal);
+        if (total && fabs(d.x) <= SHADE_EPS && fabs(d.y) <= SHADE_EPS && fabs(d.z) <= SHADE_EPS)
+            continue; // the total reflection has already shown it
+        Rgb seen = reflect_trace(tracer, surface, reflection);
+        if (reflection->finish->reflection_exponent != 1.0) {
+            float e = (float)(1.0 / reflection->finish->reflection_exponent);
+            seen = rgb(powf(seen.r, e), powf(seen.g, e), powf(seen.b, e));
+        }
+        Rgb light = rgb_mul(reflection->reflectivity, seen);
+        color->r += light.r, color->g += light.g, color->b += light.b;
+    }
+}
+
+Color shade_hit(Tracer *tracer, const Path *path, const WorldHit *hit) {
+    const Shading *shading = tracer->shading;
+    const Object *object = &shading->scene->objects[hit->object];
+    double cosine = vec_dot(hit->normal, path->ray.dir);
+    uint32_t texture = surface_texture(object, cosine);
+    if (texture == NO_INDEX)
+        return (Color){0}; // the built-in texture is black and opaque under any light
+    Surface surface = {
+        .path = path,
+        .hit = hit,
+        .normal = cosine > 0.0 ? vec_neg(hit->normal) : hit->normal,
+        .body = shading->objects[hit->object].body,
+        .texture = &shading->scene->textures[texture],
+        .double_illuminate = object->double_illuminate,
+    };
+    TexturePoint at = texture_point(surface.texture, object->uv_mapping, hit->p, hit->u, hit->v,
+                                    shading->quality.quick_color);
+    Layers layers = shade_layers(tracer, &surface, &at);
+    tracer->reflection_top = layers.end;
+    Color color = {layers.color.r, layers.color.g, layers.color.b, 0.0f, 0.0f};
+    bool total = false;
+    if (layers.translucency > shading->scene->settings.adc_bailout && shading->quality.refraction)
+        total = add_transmitted(tracer, &surface, &layers, &color);
+    if (shading->quality.reflection)
+        add_reflected(tracer, &surface, &layers, total, &color);
+    tracer->reflection_top = layers.first;
+    return color;
+}

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: MIT
+// What the files of the shading share (trace.h is their contract with the rest):
+//   tracer.c      one ray: nearest hit, shade or sky; start and end of a camera ray
+//   shade.c       a hit: its layers, then what is seen through it and in it
+//   finish.c      diffuse, phong, specular, metallic, iridescence: one light on one layer
+//   light.c       light rays and the sum over the lights
+//   shadow.c      what is between the hit and a light
+//   reflect.c     reflectivity and the reflected direction
+//   interior.c    the list of bodies a ray is in
+//   refract.c     the refracted direction, fading
+//   atmosphere.c  what a ray sees that hits nothing
+#ifndef RENDER_SHADING_H
+#define RENDER_SHADING_H
+
+#include "render/interior.h"
+#include "render/trace.h"
+#include "texture/texture.h"
+
+// POV-Ray's constants (facts: rendering 0.2).
+#define SHADE_EPS 1e-10       // near zero: a light that is black, a surface edge-on, ratios of 1
+#define SHADE_MIN_DEPTH 1e-4  // a hit nearer than this is ignored, whatever the ray is for
+#define SHADE_SHADOW_TOL 1e-3 // shadow rays: nearer to the surface, or to the light, is no shadow
+
+// +Q: what is left out below 9.
+typedef struct {
+    bool ambient_only, quick_color, shadows, refraction, reflection;
+} Quality;
+
+typedef struct {
+    uint32_t body;
+    bool opaque; // a shadow ray ends here without looking at the texture
+} ObjectInfo;
+
+struct Shading {
+    const Scene *scene;
+    const World *world;
+    TraceOptions options;
+    Quality quality;
+    bool legacy;           // effective version < 3.7: other formulas for opacity and sky
+    bool all_opaque;       // everything that throws a shadow has ObjectInfo.opaque
+    uint32_t layer_limit;  // layers in the largest texture
+    ObjectInfo *objects;   // one per scene object
+    Vec3 *parallel_travel; // one per light: unit direction in which a parallel light travels
+    Arena *arena;
+};
+
+// A ray on its way: what its parent hands down.
+typedef struct {
+    Ray ray;
+    const InteriorList *inside;
+    float weight;     // how much of the pixel it can still change; below adc_bailout it is black
+    int level;        // counts up to max_trace_level; passing straight through costs none
+    uint32_t nesting; // rays between this and the camera ray, of whatever kind
+    RayKind kind;
+    bool alpha; // the background is transparent to this ray
+} Path;
+
+// A light seen from the current hit: worked out once and kept for all layers.
+typedef struct {
+    Vec3 dir; // unit, towards the light
+    double distance;
+    Rgb color; // attenuated; after shadow_done also by what lies between
+    bool ready, shadow_done;
+} LightSample;
+
+// A layer's reflection, kept until the layers are all done.
+typedef struct {
+    double weight;
+    Vec3 normal;
+    Rgb reflectivity;
+    const Finish *finish;
+} LayerReflection;
+
+struct Tracer {
+    const Shading *shading;
+    RayStats stats;
+    uint32_t crand;               // state of the generator, from the camera ray's bits
+    LightSample *lights;          // one per light, for the hit being shaded
+    LayerReflection *reflections; // a stack; each hit under way holds a piece of it
+    uint32_t reflection_top;      // pieces in use
+    Vec3 start;                   // where the last camera ray began
+    bool start_known;
+    InteriorList start_nodes[32]; // bodies around it, POV-Ray's list is as long as it needs
+    const InteriorList *start_list;
+    Arena *arena;
+};
+
+// A hit with its surroundings, shared by the layers.
+typedef struct {
+    const Path *path;
+    const WorldHit *hit;
+    Vec3 normal; // of unit length, turned against the ray
+    uint32_t body;
+    const Texture *texture;
+    bool double_illuminate;
+} Surface;
+
+// One layer under the lights.
+typedef struct {
+    const Surface *surface;
+    const Finish *finish;
+    Vec3 normal; // perturbed
+    Rgb color;
+    double opacity; // the layer's own brightness is scaled by this
+} LitLayer;
+
+// tracer.c: the colour that comes along path->ray. continued: a ray passed straight through.
+Color trace_path(Tracer *tracer, const Path *path, bool continued);
+
+// shade.c
+Color shade_hit(Tracer *tracer, const Path *path, const WorldHit *hit);
+// The texture on that side of the object where dot(normal, dir) says the ray comes from.
+uint32_t surface_texture(const Object *object, double normal_dot_dir);
+
+// light.c: adds what the lights give to a layer.
+void lights_add(Tracer *tracer, const LitLayer *layer, Rgb *color);
+void lights_reset(Tracer *tracer); // a new hit is being shaded
+
+// shadow.c: multiplies color by what ray (from the surface, unit dir) lets through to a light at
+// that distance. inside: the bodies around the surface's own ray.
+void shadow_filter(Tracer *tracer, Ray ray, double distance, const InteriorList *inside,
+                   Rgb *color);
+
+// finish.c: one light, dir unit and towards it.
+void finish_diffuse(Tracer *tracer, const LitLayer *layer, Vec3 dir, Rgb light, bool backside,
+                    Rgb *color);
+void finish_phong(const LitLayer *layer, Vec3 eye, Vec3 dir, Rgb light, Rgb *color);
+void finish_specular(const LitLayer *layer, Vec3 eye, Vec3 dir, Rgb light, Rgb *color);
+void finish_irid(const Scene *scene, const Finish *finish, Vec3 p, Vec3 eye, Vec3 dir, Vec3 normal,
+                 Rgb *color);
+// The empirical Fresnel curve that `metallic` uses: 0 head-on to 1 at grazing cosines.
+double finish_metallic_fresnel(double cosine);
+
+// reflect.c
+void reflect_layer(const Shading *shading, const Surface *surface, const Finish *finish,
+                   Vec3 normal, Rgb layer_color, LayerReflection *out);
+Vec3 reflect_dir(Vec3 dir, Vec3 normal, Vec3 raw_normal);
+Rgb reflect_trace(Tracer *tracer, const Surface *surface, const LayerReflection *reflection);
+
+// refract.c
+// How much of the light a distance inside the body swallows; shadow rays need fade_power > 0.
+Rgb refract_fade(const Interior *interior, double distance);
+// Traces what is seen through the surface; true: total internal reflection took its place.
+bool refract_trace(Tracer *tracer, const Surface *surface, const Finish *finish, Vec3 normal,
+                   float weight, Color *color);
+
+// atmosphere.c
+Color atmosphere_sky(const Shading *shading, Vec3 dir, bool alpha);
+
+#endif

@@ -1,0 +1,277 @@
+// SPDX-License-Identifier: MIT
+#include "shade_fixture.h"
+
+#include "base/diag.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+bool fixture_povray_available(void) { return system("command -v povray >/dev/null 2>&1") == 0; }
+
+void fixture_text(Fixture *f, const char *format, ...) {
+    va_list args;
+    va_start(args, format);
+    char *piece;
+    int length = vasprintf(&piece, format, args);
+    va_end(args);
+    if (length < 0)
+        die("out of memory");
+    size_t need = f->text_size + (size_t)length + 1;
+    if (need > f->text_room) {
+        f->text_room = 2 * need;
+        f->text = realloc(f->text, f->text_room);
+        if (f->text == NULL)
+            die("out of memory");
+    }
+    memcpy(f->text + f->text_size, piece, (size_t)length + 1);
+    f->text_size += (size_t)length;
+    free(piece);
+}
+
+Fixture *fixture_create(int version) {
+    Fixture *f = calloc(1, sizeof *f);
+    if (f == NULL)
+        die("out of memory");
+    f->arena = arena_create();
+    f->scene.settings = (Settings){
+        .version = version,
+        .gamma_mode = GAMMA_POWER,
+        .assumed_gamma = 1.0f,
+        .ambient_light = {1.0f, 1.0f, 1.0f},
+        .max_trace_level = 5,
+        .adc_bailout = 1.0f / 255.0f,
+        .noise_generator = 2,
+        .number_of_waves = 10,
+        .irid_wavelength = {0.70f, 0.52f, 0.48f},
+        .background = {0.0f, 0.0f, 0.0f, 0.0f, 1.0f},
+    };
+    fixture_text(f, "#version %g;\nglobal_settings { assumed_gamma 1.0 }\n", version / 100.0);
+    return f;
+}
+
+void fixture_destroy(Fixture *f) {
+    array_free(&f->pigments);
+    array_free(&f->textures);
+    array_free(&f->interiors);
+    array_free(&f->objects);
+    array_free(&f->roots);
+    array_free(&f->lights);
+    arena_destroy(f->arena);
+    free(f->text);
+    free(f);
+}
+
+void fixture_orthographic(Fixture *f, int width, int height, double across, double high,
+                          Vec3 center) {
+    f->width = width, f->height = height;
+    f->scene.camera = (Camera){
+        .type = CAMERA_ORTHOGRAPHIC,
+        .location = vec3(center.x, center.y, -10.0),
+        .direction = vec3(0.0, 0.0, 1.0),
+        .up = vec3(0.0, high, 0.0),
+        .right = vec3(across, 0.0, 0.0),
+    };
+    fixture_text(f,
+                 "camera { orthographic location <%.17g, %.17g, -10> direction z up %.17g*y "
+                 "right %.17g*x }\n",
+                 center.x, center.y, high, across);
+}
+
+void fixture_perspective(Fixture *f, int width, int height, Vec3 at) {
+    f->width = width, f->height = height;
+    f->scene.camera = (Camera){
+        .type = CAMERA_PERSPECTIVE,
+        .location = at,
+        .direction = vec3(0.0, 0.0, 1.0),
+        .up = vec3(0.0, 1.0, 0.0),
+        .right = vec3(1.0, 0.0, 0.0),
+    };
+    fixture_text(f, "camera { location <%.17g, %.17g, %.17g> direction z up y right x }\n", at.x,
+                 at.y, at.z);
+}
+
+uint32_t fixture_pigment(Fixture *f, Pigment pigment) {
+    array_push(&f->pigments, pigment);
+    return (uint32_t)f->pigments.count - 1;
+}
+
+uint32_t fixture_plain(Fixture *f, Color color) {
+    return fixture_pigment(f, (Pigment){.color = color});
+}
+
+uint32_t fixture_texture(Fixture *f, const Layer *layers, uint32_t count) {
+    Texture texture = {.layers = arena_copy(f->arena, layers, count * sizeof *layers),
+                       .layer_count = count};
+    array_push(&f->textures, texture);
+    return (uint32_t)f->textures.count - 1;
+}
+
+uint32_t fixture_interior(Fixture *f, Interior interior) {
+    array_push(&f->interiors, interior);
+    return (uint32_t)f->interiors.count - 1;
+}
+
+uint32_t fixture_object(Fixture *f, Object object) {
+    array_push(&f->objects, object);
+    uint32_t index = (uint32_t)f->objects.count - 1;
+    array_push(&f->roots, index);
+    return index;
+}
+
+void fixture_light(Fixture *f, Light light) { array_push(&f->lights, light); }
+
+static Object bare(ObjectType type) {
+    Object object = {
+        .type = type, .texture = NO_INDEX, .interior_texture = NO_INDEX, .interior = NO_INDEX};
+    object.transform = transform_identity();
+    return object;
+}
+
+Object fixture_sphere(Vec3 center, double radius) {
+    Object object = bare(OBJECT_SPHERE);
+    object.shape.sphere = (SphereShape){center, radius};
+    return object;
+}
+
+Object fixture_plane(Vec3 normal, double distance) {
+    Object object = bare(OBJECT_PLANE);
+    object.shape.plane = (PlaneShape){normal, distance};
+    return object;
+}
+
+const Scene *fixture_scene(Fixture *f) {
+    Scene *s = &f->scene;
+    s->pigments = f->pigments.items, s->pigment_count = (uint32_t)f->pigments.count;
+    s->textures = f->textures.items, s->texture_count = (uint32_t)f->textures.count;
+    s->interiors = f->interiors.items, s->interior_count = (uint32_t)f->interiors.count;
+    s->objects = f->objects.items, s->object_count = (uint32_t)f->objects.count;
+    s->roots = f->roots.items, s->root_count = (uint32_t)f->roots.count;
+    s->lights = f->lights.items, s->light_count = (uint32_t)f->lights.count;
+    return s;
+}
+
+// Facts: rendering 1.3.
+static Ray camera_ray(const Fixture *f, int x, int y) {
+    const Camera *c = &f->scene.camera;
+    double a = (x + 0.5) / f->width - 0.5, b = ((f->height - 1) - (y - 0.5)) / f->height - 0.5;
+    Vec3 offset = vec_add(vec_scale(c->right, a), vec_scale(c->up, b));
+    if (c->type == CAMERA_ORTHOGRAPHIC)
+        return (Ray){vec_add(c->location, offset), c->direction};
+    return (Ray){c->location, vec_normalize(vec_add(c->direction, offset))};
+}
+
+static Color *our_picture(Fixture *f) {
+    const Scene *scene = fixture_scene(f);
+    PatchSetOptions patches = {.method = METHOD_FACETS, .tolerance = 1e-9};
+    World *world = world_create(scene, &patches);
+    TraceOptions options = {.quality = f->quality, .alpha = f->alpha};
+    Shading *shading = shading_create(scene, world, &options);
+    Tracer *tracer = tracer_create(shading);
+    Color *pixels = ARENA_ARRAY(f->arena, Color, (size_t)f->width * (size_t)f->height);
+    for (int y = 0; y < f->height; y++)
+        for (int x = 0; x < f->width; x++) {
+            Ray ray = camera_ray(f, x, y);
+            pixels[y * f->width + x] = tracer_trace(tracer, &ray);
+        }
+    tracer_destroy(tracer);
+    shading_destroy(shading);
+    world_destroy(world);
+    return pixels;
+}
+
+static unsigned char *read_all(Fixture *f, const char *path, size_t *size) {
+    FILE *in = fopen(path, "rb");
+    if (in == NULL)
+        return NULL;
+    fseek(in, 0, SEEK_END);
+    *size = (size_t)ftell(in);
+    rewind(in);
+    unsigned char *data = arena_alloc(f->arena, *size + 1);
+    if (fread(data, 1, *size, in) != *size)
+        *size = 0;
+    fclose(in);
+    return data;
+}
+
+// PPM of 16 bits, or with alpha TGA of 8 bits (blue first, four bytes a pixel, rows from the top).
+void fixture_launch(Fixture *f, int quality, bool alpha) {
+    f->quality = quality;
+    f->alpha = alpha;
+    strcpy(f->folder, "/tmp/qipov-test-XXXXXX");
+    if (mkdtemp(f->folder) == NULL)
+        die("cannot make a temporary folder");
+    const char *source = arena_printf(f->arena, "%s/scene.pov", f->folder);
+    FILE *out = fopen(source, "w");
+    if (out == NULL || fputs(f->text, out) < 0 || fclose(out) != 0)
+        die("cannot write %s", source);
+    f->povray = popen(arena_printf(f->arena,
+                                   "cd %s && povray +Iscene.pov +Oscene.%s +W%d +H%d +Q%d %s "
+                                   "File_Gamma=1.0 -D -A +WT1 >log.txt 2>&1",
+                                   f->folder, alpha ? "tga" : "ppm", f->width, f->height, quality,
+                                   alpha ? "+FT +UA" : "+FP16"),
+                      "r");
+    if (f->povray == NULL)
+        die("cannot start povray");
+}
+
+static const unsigned char *povray_picture(Fixture *f) {
+    int status = pclose(f->povray);
+    const char *name = status != 0 ? "log.txt" : f->alpha ? "scene.tga" : "scene.ppm";
+    size_t size = 0;
+    const unsigned char *data =
+        read_all(f, arena_printf(f->arena, "%s/%s", f->folder, name), &size);
+    if (system(arena_printf(f->arena, "rm -r %s", f->folder)) != 0)
+        fprintf(stderr, "%s was left behind\n", f->folder);
+    if (status != 0 || data == NULL)
+        die("povray failed:\n%s\n%s", data != NULL ? (const char *)data : "", f->text);
+    size_t pixels = (size_t)f->width * (size_t)f->height * (f->alpha ? 4 : 6);
+    if (size < pixels + 18)
+        die("povray's picture is too short");
+    // Whatever the header says, the pixels come last; TGA may have a footer.
+    return f->alpha ? data + 18 + data[0] : data + size - pixels;
+}
+
+static int quantise(double value, int max) {
+    value = value < 0.0 ? 0.0 : value > 1.0 ? 1.0 : value;
+    return (int)(value * max + 0.5);
+}
+
+// Facts: rendering 3.4.
+static void straight_alpha(Color c, double out[4]) {
+    double alpha = 1.0 - c.transmit, grey = rgb_grey(color_rgb(c));
+    if (grey > alpha)
+        alpha = grey < 1.0 ? grey : 1.0;
+    double divisor = alpha == 0.0 ? 1e-6 : alpha;
+    out[0] = c.b / divisor, out[1] = c.g / divisor, out[2] = c.r / divisor, out[3] = alpha;
+}
+
+int fixture_compare(Fixture *f, int limit) {
+    const Color *ours = our_picture(f);
+    const unsigned char *theirs = povray_picture(f);
+    bool alpha = f->alpha;
+    int worst = -1, worst_at = 0, worst_channel = 0, channels = alpha ? 4 : 3;
+    int a = 0, b = 0, lit = 0, over = 0;
+    for (int i = 0; i < f->width * f->height; i++) {
+        double v[4] = {ours[i].r, ours[i].g, ours[i].b};
+        if (alpha)
+            straight_alpha(ours[i], v);
+        for (int c = 0; c < channels; c++) {
+            int have = quantise(v[c], alpha ? 255 : 65535);
+            int want =
+                alpha ? theirs[i * 4 + c] : theirs[i * 6 + c * 2] << 8 | theirs[i * 6 + c * 2 + 1];
+            lit += want != 0;
+            over += abs(have - want) > limit;
+            if (abs(have - want) > worst)
+                worst = abs(have - want), worst_at = i, worst_channel = c, a = have, b = want;
+        }
+    }
+    if (worst > limit)
+        fprintf(stderr, "%d values differ; pixel (%d, %d) channel %d: %d, povray %d\n", over,
+                worst_at % f->width, worst_at / f->width, worst_channel, a, b);
+    if (lit == 0)
+        die("povray's picture is black: the test shows nothing");
+    return worst;
+}

@@ -42,29 +42,38 @@ all: $(PROGRAMS:%=build/%)
 
 build/%.o: %.c
 	@mkdir -p $(@D)
-	$(CC) $(C11) $(CFLAGS) -c -o $@ $<
+	@echo '  CC  $<'
+	@$(CC) $(C11) $(CFLAGS) -c -o $@ $<
 build/%.o: %.cpp
 	@mkdir -p $(@D)
-	$(CXX) $(CXX17) $(CFLAGS) -c -o $@ $<
+	@echo '  CXX $<'
+	@$(CXX) $(CXX17) $(CFLAGS) -c -o $@ $<
 build/test/%.o: %.c
 	@mkdir -p $(@D)
-	$(CC) $(C11) $(SAN) -c -o $@ $<
+	@echo '  CC  $< (sanitized)'
+	@$(CC) $(C11) $(SAN) -c -o $@ $<
 build/test/%.o: %.cpp
 	@mkdir -p $(@D)
-	$(CXX) $(CXX17) $(SAN) -c -o $@ $<
+	@echo '  CXX $< (sanitized)'
+	@$(CXX) $(CXX17) $(SAN) -c -o $@ $<
 
 build/pov2qi: build/converter/main.o $(OBJ)
-	$(CC) -fopenmp -o $@ $^ $(LIBS)
+	@echo '  LD  $@'
+	@$(CC) -fopenmp -o $@ $^ $(LIBS)
 build/qi%: build/src/cmd/qi%.o $(OBJ)
-	$(CC) -fopenmp -o $@ $^ $(LIBS)
+	@echo '  LD  $@'
+	@$(CC) -fopenmp -o $@ $^ $(LIBS)
 
 # The programs under the sanitizers, for tests that run them; and the cmocka programs.
 build/test/pov2qi: build/test/converter/main.o $(TEST_OBJ)
-	$(CC) -fopenmp -fsanitize=address,undefined -o $@ $^ -lcmocka $(LIBS)
+	@echo '  LD  $@'
+	@$(CC) -fopenmp -fsanitize=address,undefined -o $@ $^ -lcmocka $(LIBS)
 build/test/qi%: build/test/src/cmd/qi%.o $(TEST_OBJ)
-	$(CC) -fopenmp -fsanitize=address,undefined -o $@ $^ -lcmocka $(LIBS)
+	@echo '  LD  $@'
+	@$(CC) -fopenmp -fsanitize=address,undefined -o $@ $^ -lcmocka $(LIBS)
 build/test/test_%: build/test/tests/test_%.o $(TEST_OBJ)
-	$(CC) -fopenmp -fsanitize=address,undefined -o $@ $^ -lcmocka $(LIBS)
+	@echo '  LD  $@'
+	@$(CC) -fopenmp -fsanitize=address,undefined -o $@ $^ -lcmocka $(LIBS)
 
 deps:
 	@tests/deps.sh $(PACKAGES)
@@ -84,5 +93,9 @@ demo: deps
 clean:
 	rm -rf build
 
-.PHONY: all deps test lint demo clean
+gallery: deps
+	@$(MAKE) --no-print-directory -j$$(nproc) all
+	@tests/gallery.sh
+
+.PHONY: all deps test lint demo gallery clean
 -include $(shell find build -name '*.d' 2>/dev/null)

@@ -104,24 +104,24 @@ static void keep_root(Hunt *h, Real u, Real v) {
             (OracleHit){(double)s[2], (double)u, (double)v, (double)sine};
 }
 
-static void newton(Hunt *h, Real u, Real v, Real width) {
+// False: Newton did not end on a root beside the cell.
+static bool newton(Hunt *h, Real u, Real v, Real width) {
     Real u0 = u, v0 = v, s[3], su[3], sv[3];
     for (int n = 0; n < 60; n++) {
         eval(h->whole, u, v, s, su, sv);
         Real det = su[0] * sv[1] - su[1] * sv[0];
         Real du = (sv[1] * s[0] - sv[0] * s[1]) / det, dv = (su[0] * s[1] - su[1] * s[0]) / det;
-        if (!(fabsl(u - u0) <= 16.0L * width && fabsl(v - v0) <= 16.0L * width))
-            return; // ran away: no root here, or a singular one
         u -= du, v -= dv;
+        if (!(fabsl(u - u0) <= 4.0L * width && fabsl(v - v0) <= 4.0L * width))
+            return false;
         if (fabsl(du) + fabsl(dv) < 1e-17L)
             break;
     }
     eval(h->whole, u, v, s, su, sv);
-    if (fabsl(s[0]) + fabsl(s[1]) <= 1e-14L * h->size && fabsl(u - u0) <= 4.0L * width &&
-        fabsl(v - v0) <= 4.0L * width)
-        keep_root(h, u, v);
-    else
-        h->out->doubtful = true;
+    if (!(fabsl(s[0]) + fabsl(s[1]) <= 1e-14L * h->size))
+        return false;
+    keep_root(h, u, v);
+    return fabsl(u - u0) <= width && fabsl(v - v0) <= width;
 }
 
 static void hunt(Hunt *h, const Net *n, Real u, Real v, Real width, int depth) {
@@ -139,8 +139,10 @@ static void hunt(Hunt *h, const Net *n, Real u, Real v, Real width, int depth) {
     if (low[0] > slack || high[0] < -slack || low[1] > slack || high[1] < -slack ||
         high[2] < h->t_min - 1e-6L || low[2] > h->t_max + 1e-6L)
         return;
-    if (depth == 9) {
-        newton(h, u + 0.5L * width, v + 0.5L * width, width);
+    if (depth >= 9 && newton(h, u + 0.5L * width, v + 0.5L * width, width))
+        return;
+    if (depth == 16) {
+        h->out->doubtful = true;
         return;
     }
     Net a, b, parts[4];

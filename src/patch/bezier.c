@@ -195,7 +195,8 @@ double bezier_diameter(const Bezier *s) {
 static double largest_coordinate(const Bezier *s) {
     double most = 0.0;
     for (int k = 0; k < bezier_count(s); k++)
-        most = fmax(most, fmax(fabs(s->p[k].x), fmax(fabs(s->p[k].y), fabs(s->p[k].z))));
+        for (int axis = 0; axis < 3; axis++)
+            most = fabs(vec_get(s->p[k], axis)) > most ? fabs(vec_get(s->p[k], axis)) : most;
     return most;
 }
 

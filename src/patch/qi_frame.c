@@ -8,7 +8,8 @@
 
 static const double HALF_ULP = 0.5 * DBL_EPSILON;
 
-static double largest(Vec3 a) { return fmax(fabs(a.x), fmax(fabs(a.y), fabs(a.z))); }
+static inline double larger(double a, double b) { return a > b ? a : b; }
+static inline double largest(Vec3 a) { return larger(fabs(a.x), larger(fabs(a.y), fabs(a.z))); }
 
 // Times 2^exponent, in two factors: one alone could leave the range.
 static Vec3 shifted(Vec3 a, int exponent) {
@@ -68,7 +69,7 @@ bool qi_frame_init(QiFrame *f, const Bezier *patch, const QiQuery *query, Bezier
         return false;
     double most = largest(query->ray.org);
     for (int k = 0; k < bezier_count(patch); k++)
-        most = fmax(most, largest(patch->p[k]));
+        most = larger(most, largest(patch->p[k]));
     if (!isfinite(most))
         return false;
     int exponent, dir_exponent;
@@ -95,8 +96,8 @@ bool qi_frame_init(QiFrame *f, const Bezier *patch, const QiQuery *query, Bezier
     for (int k = 0; k < bezier_count(patch); k++) {
         Vec3 q = vec_sub(shifted(patch->p[k], f->exponent), f->org);
         Vec3 p = vec3(vec_dot(f->e1, q), vec_dot(f->e2, q), vec_dot(f->w, q));
-        reach = fmax(reach, vec_length(q));
-        side = fmax(side, fmax(fabs(p.x), fabs(p.y)));
+        reach = larger(reach, vec_length(q));
+        side = larger(side, larger(fabs(p.x), fabs(p.y)));
         out->p[k] = p;
     }
     f->reach = reach;
@@ -104,7 +105,7 @@ bool qi_frame_init(QiFrame *f, const Bezier *patch, const QiQuery *query, Bezier
     f->slack_z = slack_of(out->du, out->dv, reach, reach);
     f->rounding = sqrt(2.0) * f->slack + f->slack_z;
     double least = 0.5 * floor_of(out->du, out->dv, f->rounding);
-    f->tolerance = fmax(ldexp(query->tolerance, f->exponent), least);
+    f->tolerance = larger(ldexp(query->tolerance, f->exponent), least);
     f->z_low = depth_of(f, query->t_min, -8.0);
     f->z_high = depth_of(f, query->t_max, 8.0);
     f->z_low -= 8.0 * HALF_ULP * fabs(f->z_low) + f->slack_z;

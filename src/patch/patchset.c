@@ -4,7 +4,9 @@
 
 #include "base/arena.h"
 #include "base/array.h"
+#include "patch/accel.h"
 #include "patch/facets.h"
+#include "patch/paper.h"
 #include "patch/query.h"
 
 #include <assert.h>
@@ -19,7 +21,10 @@ struct PatchSet {
     ARRAY(PatchDef) defs; // their points lie in the arena
     Box bounds;
     bool committed;
-    Facets *facets; // of the method, the others are NULL
+    // The method's own, the others are NULL.
+    Accel *accel;
+    Paper *paper;
+    Facets *facets;
 };
 
 const char *patch_method_name(PatchMethod method) {
@@ -76,10 +81,16 @@ void patchset_commit(PatchSet *set) {
     const PatchDef *defs = set->defs.items;
     size_t count = set->defs.count;
     switch (set->options.method) {
+    case METHOD_QI:
+        set->accel = accel_create(set->arena, defs, count, set->options.tolerance);
+        break;
+    case METHOD_QI_PAPER:
+        set->paper = paper_create(set->arena, defs, count, set->options.tolerance);
+        break;
     case METHOD_FACETS:
         set->facets = facets_create(set->arena, defs, count);
         break;
-    default:
+    case METHOD_COUNT:
         assert(!"no such method");
     }
 }
@@ -94,7 +105,11 @@ static void ask(const PatchSet *set, Query *query) {
     assert(set->committed);
     if (!vec_is_finite(query->ray.org) || !vec_is_finite(query->ray.dir))
         return;
-    if (set->facets)
+    if (set->accel)
+        accel_query(set->accel, query);
+    else if (set->paper)
+        paper_query(set->paper, query);
+    else if (set->facets)
         facets_query(set->facets, query);
 }
 

@@ -217,7 +217,7 @@ static double tree_scale(const Box *bounds, Vec3 center) {
         place = fmax(place, fabs(vec_get(center, axis)));
     }
     int exponent;
-    frexp(fmax(size, place * 0x1p-40), &exponent);
+    frexp(fmax(size, place * 0x1p-30), &exponent);
     return ldexp(1.0, -exponent);
 }
 
@@ -259,25 +259,28 @@ bool tree_ray_begin(const Tree *tree, const Ray *ray, double t_min, double t_max
     double length = vec_length(dir);
     out->s_per_t = length * largest * tree->scale;
     const double grown = 1.0 + 4.0 * (double)TREE_PAD;
-    double start[3], d[3], entry = 0.0, exit = INFINITY, reach = 0.0;
+    double entry = 0.0, exit = INFINITY, reach = 0.0;
     for (int axis = 0; axis < 3; axis++) {
-        d[axis] = vec_get(dir, axis) / length;
-        if (fabs(d[axis]) < 0x1p-60)
-            d[axis] = copysign(0x1p-60, d[axis]);
-        start[axis] = (vec_get(ray->org, axis) - vec_get(tree->center, axis)) * tree->scale;
-        double a = (-grown - start[axis]) / d[axis], b = (grown - start[axis]) / d[axis];
+        double d = vec_get(dir, axis) / length;
+        if (fabs(d) < 0x1p-60)
+            d = copysign(0x1p-60, d);
+        double o = (vec_get(ray->org, axis) - vec_get(tree->center, axis)) * tree->scale;
+        double a = (-grown - o) / d, b = (grown - o) / d;
         entry = fmax(entry, fmin(a, b));
         exit = fmin(exit, fmax(a, b));
-        reach = fmax(reach, fabs(start[axis]));
+        reach = fmax(reach, fabs(o));
+        out->dir[axis] = d;
+        out->origin[axis] = o;
     }
-    // The shift's error: two roundings of start and of entry x d.
-    out->far = !((reach + entry) * 0x1p-51 < 0x1p-23);
-    if (out->far) {
-        out->s_base = 0.0;
-        out->s_min = -4.0f;
-        out->s_max = 4.0f;
+    // The error of the shift: two roundings each of origin, entry x dir and their sum; and dir's
+    // own rounding (three) over the way that is left.
+    out->error = (reach + entry + 4.0) * 0x1p-50;
+    out->far = !(out->error < 0x1p-23);
+    out->s_base = 0.0;
+    out->s_min = -4.0f;
+    out->s_max = 4.0f;
+    if (out->far)
         return true;
-    }
     if (entry > exit)
         return false;
     out->s_base = entry;
@@ -285,8 +288,9 @@ bool tree_ray_begin(const Tree *tree, const Ray *ray, double t_min, double t_max
     out->s_min = (float)(s_min > -4.0 ? s_min : -4.0);
     tree_ray_cut(out, t_max);
     for (int axis = 0; axis < 3; axis++) {
-        out->start[axis] = (float)(start[axis] + entry * d[axis]);
-        out->inverse[axis] = (float)(1.0 / d[axis]);
+        out->origin[axis] += entry * out->dir[axis];
+        out->start[axis] = (float)out->origin[axis];
+        out->inverse[axis] = (float)(1.0 / out->dir[axis]);
     }
     return out->s_min <= out->s_max;
 }

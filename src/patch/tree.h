@@ -46,10 +46,12 @@ typedef struct {
 // Everything is put into the arena. count may be 0.
 void tree_build(Arena *arena, const Box *boxes, uint32_t count, uint32_t leaf_size, Tree *tree);
 
-// A ray in tree space: start + s dir, |dir| = 1, s = (t length) scale - s_base.
+// A ray in tree space: origin + s dir, |dir| = 1, s = t s_per_t - s_base.
 typedef struct {
-    float start[3], inverse[3];
+    float start[3], inverse[3]; // origin, 1 / dir
     float s_min, s_max;
+    double origin[3], dir[3];
+    double error; // bound of the rounding of each coordinate of origin + s dir, |s| < 4
     double s_per_t, s_base;
     bool far; // too far away for the boxes
 } TreeRay;

@@ -22,6 +22,7 @@
 #include "base/color.h"
 #include "base/diag.h"
 #include "base/vec.h"
+#include "model/scene.h"
 #include "options/options.h"
 
 #include <stdbool.h>
@@ -62,7 +63,7 @@ enum {
     TOK_LE,         // <=
     TOK_GE,         // >=
     TOK_NE,         // !=
-    TOK_HASH_END,   // internal to directive.c
+    TOK_ERROR,      // text says what is wrong here; dies when the cursor reaches it
     KW_FIRST,
 };
 enum Keyword {
@@ -76,6 +77,7 @@ enum Keyword {
 typedef struct {
     int code;
     int line, column; // from 1
+    uint32_t name;    // TOK_IDENTIFIER: its number in symbol.c
     double number;    // TOK_NUMBER
     const char *text; // TOK_STRING, TOK_IDENTIFIER, and the spelling of reserved words
     const Source *source;
@@ -86,8 +88,9 @@ typedef struct {
     size_t count;
 } TokenList;
 
-// The whole source as tokens; comments are gone, directives are '#' followed by their word.
-TokenList lexer_tokenize(Converter *cv, const Source *source, const Loc *from);
+// The whole source as tokens; comments are gone, directives are '#' followed by their word. Where
+// the text cannot be read the list ends with TOK_ERROR, TOK_EOF.
+TokenList lexer_tokenize(Converter *cv, const Source *source);
 const char *keyword_name(int code);
 // How a token is called in a message: "'}'", "number", "undeclared identifier 'Redd'", ...
 const char *token_describe(Converter *cv, const Token *token);
@@ -100,8 +103,14 @@ const Token *next_token(Converter *cv);
 const Token *peek_token(Converter *cv); // the same without consuming it
 // While held, directives and macro calls are not run: a '#' or a macro's name comes out as it is.
 // Used exactly while looking for a continuation of a #declare value or a macro argument.
-void hold_directives(Converter *cv);
-void release_directives(Converter *cv);
+// Both return the state before, for restore_directives; inside parentheses and at the start of a
+// factor directives run again.
+bool hold_directives(Converter *cv);
+bool release_directives(Converter *cv);
+void restore_directives(Converter *cv, bool held);
+// At top level POV-Ray still takes declare, include, default and version without their '#'. If one
+// is next, runs it (with a warning) and returns true.
+bool accept_old_directive(Converter *cv);
 
 bool accept(Converter *cv, int code);                    // consumes the token if it is the one
 bool next_is(Converter *cv, int code);                   // peeks
@@ -171,10 +180,10 @@ const char *value_type_name(ValueType type);
 Value *symbol_find(Converter *cv, const char *name);
 
 // If the next tokens name (or index an array to) a value of that type, consumes them and returns
-// it; else NULL and nothing is consumed.
+// it; else NULL and nothing is consumed. Subscripts belong to the identifier's token: they are
+// evaluated when it is read, and the element stands for the token.
 const Value *accept_value(Converter *cv, ValueType type);
 // The type that the next identifier (or array element) names, VALUE_NONE if the next token is none.
-// For an array followed by '[' it is the type of the array's elements.
 ValueType peek_value_type(Converter *cv);
 
 // ---- expr.c -----------------------------------------------------------------------------------
@@ -203,6 +212,7 @@ Value parse_value(Converter *cv);
 
 // After the keyword `function`: [(parameters)] { body }.
 Function *parse_function(Converter *cv);
+// Dies where f was written if it needs what is not modelled (internal functions).
 double function_evaluate(const Function *f, const double *arguments);
 int function_parameter_count(const Function *f);
 
@@ -212,8 +222,14 @@ int function_parameter_count(const Function *f);
 // such as `pigment`, `sphere`, `transform`, or the name of such a value), parses it. False: it does
 // not.
 bool parse_statement_value(Converter *cv, Value *out);
-// Everything at top level until the end of the main file.
+// Everything at top level until the end of the main file. For `declare` and so on without '#':
+// accept_old_directive.
 void parse_scene_statements(Converter *cv);
+// emit.c: what the statements have gathered, as a scene in the caller's arena.
+Scene *emit_scene(Converter *cv);
+// object.c: the box of a declared object or, for an image_map pigment, <0,0,0>..<width,height,0>.
+// False: there is none for that value.
+bool object_extent(Converter *cv, const Value *value, Box *out);
 // The block after #default, from its '{' to its '}'.
 void parse_default_block(Converter *cv);
 
@@ -231,8 +247,15 @@ struct Converter {
     bool version_set;         // was any #version executed, or +MV given?
     bool noise_generator_set; // by global_settings: #version no longer changes it
     int noise_generator;
-    bool utf8; // global_settings { charset utf8 }
-    int level; // enter_level
+    bool utf8;          // global_settings { charset utf8 }, or the scene file begins with a BOM
+    int level;          // enter_level
+    bool gamma_set;     // by assumed_gamma: srgb colours are understood from then on
+    bool gamma_is_srgb; // assumed_gamma srgb
+    double gamma;       // assumed_gamma, 0 when it is srgb or not yet known
+    struct Language *language; // language.h: what only the language's own files need
 };
+
+// The language version that rules the picture: 3.62 for a scene that never names one.
+int effective_version(const Converter *cv);
 
 #endif

@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: MIT
+// Finding and reading files. POV-Ray's order first (facts: sdl 1.6): for each candidate name (with
+// and without the extensions of that kind) the working directory, then the library paths. What POV-
+// Ray does not try comes after that, with a note: the folders of the files being read, and names
+// that differ only in the case of their letters.
+#include "converter/language.h"
+
+#include "base/file.h"
+
+#include <dirent.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+#include <sys/stat.h>
+
+// ORDER FileKind
+static const char *const extensions[][16] = {
+    {".pov", ".POV", NULL},
+    {".inc", ".INC", NULL},
+    {".png", ".PNG", ".tga", ".TGA", ".jpg", ".JPG", ".jpeg", ".gif", ".GIF", ".tif", ".tiff",
+     ".bmp", ".exr", ".hdr", NULL},
+    {".ttf", ".TTF", NULL},
+    {NULL},
+};
+
+enum { MAX_NAMES = 18 };
+
+// The names to try, in order: an own standard extension is tried first, else last.
+static int candidate_names(Converter *cv, const char *name, FileKind kind, const char **out) {
+    const char *slash = strrchr(name, '/'), *dot = strrchr(slash ? slash : name, '.');
+    int count = 0;
+    bool standard = false;
+    for (int i = 0; dot && extensions[kind][i]; i++)
+        standard = standard || strcasecmp(dot, extensions[kind][i]) == 0;
+    if (standard)
+        out[count++] = name;
+    for (int i = 0; extensions[kind][i]; i++)
+        out[count++] = arena_printf(cv->arena, "%s%s", name, extensions[kind][i]);
+    if (!standard)
+        out[count++] = name;
+    return count;
+}
+
+static void add_library(Converter *cv, const char *path) {
+    struct stat st;
+    if (!*path || stat(path, &st) != 0 || !S_ISDIR(st.st_mode))
+        return;
+    for (size_t i = 0; i < cv->language->library.count; i++) {
+        if (strcmp(cv->language->library.items[i], path) == 0)
+            return;
+    }
+    list_push(cv, &cv->language->library, path);
+}
+
+// What the distribution's povray.ini names, then the command line, then POVINC: POV-Ray's order.
+static void find_library(Converter *cv) {
+    static const char *const standard[] = {
+        "/usr/share/povray-3.7",
+        "/usr/share/povray-3.7/ini",
+        "/usr/share/povray-3.7/include",
+        "/usr/local/share/povray-3.7",
+        "/usr/local/share/povray-3.7/include",
+    };
+    for (size_t i = 0; i < sizeof standard / sizeof *standard; i++)
+        add_library(cv, standard[i]);
+    for (size_t i = 0; i < cv->options->library_path_count; i++)
+        add_library(cv, cv->options->library_paths[i]);
+    const char *env = getenv("POVINC");
+    if (env)
+        add_library(cv, arena_strdup(cv->arena, env));
+}
+
+static const char *join(Converter *cv, const char *folder, const char *name) {
+    if (!*folder || name[0] == '/')
+        return name;
+    const char *slash = folder[strlen(folder) - 1] == '/' ? "" : "/";
+    return arena_printf(cv->arena, "%s%s%s", folder, slash, name);
+}
+
+static const char *folder_of(Converter *cv, const char *path) {
+    const char *slash = strrchr(path, '/');
+    return slash ? arena_printf(cv->arena, "%.*s", (int)(slash - path), path) : "";
+}
+
+// The entry of the folder that equals name but for the case of its letters, or NULL. Only the last
+// part of the name may differ.
+static const char *find_other_case(Converter *cv, const char *folder, const char *name) {
+    const char *path = join(cv, folder, name), *where = folder_of(cv, path);
+    const char *slash = strrchr(path, '/'), *base = slash ? slash + 1 : path;
+    const char *found = NULL;
+    DIR *dir = opendir(*where ? where : slash ? "/" : ".");
+    if (!dir)
+        return NULL;
+    for (struct dirent *e; !found && (e = readdir(dir));) {
+        if (strcasecmp(e->d_name, base) == 0) {
+            const char *entry =
+                arena_printf(cv->arena, "%s%s%s", where, slash ? "/" : "", e->d_name);
+            found = file_exists(entry) ? entry : NULL;
+        }
+    }
+    closedir(dir);
+    return found;
+}
+
+static void note_found(Converter *cv, const char *path, const char *how) {
+    if (!cv->language->last)
+        return;
+    Loc loc = token_loc(cv, cv->language->last);
+    note_at(&loc, "found as '%s': %s, which POV-Ray does not try", path, how);
+}
+
+// Beyond POV-Ray: beside the files that are being read, innermost first.
+static const char *find_beside(Converter *cv, const char *const *names, int count) {
+    for (const Frame *f = cv->frame; f; f = f->outer) {
+        const Source *source = f->source ? f->source : f->tokens->source;
+        for (int i = 0; i < count; i++) {
+            const char *path = join(cv, folder_of(cv, source->name), names[i]);
+            if (file_exists(path)) {
+                note_found(cv, path, "in the folder of the including file");
+                return path;
+            }
+        }
+    }
+    return NULL;
+}
+
+static const char *find_any_case(Converter *cv, const char *const *names, int count) {
+    for (int i = 0; i < count; i++) {
+        const char *path = find_other_case(cv, "", names[i]);
+        for (size_t k = 0; !path && k < cv->language->library.count; k++)
+            path = find_other_case(cv, cv->language->library.items[k], names[i]);
+        for (const Frame *f = cv->frame; !path && f; f = f->outer) {
+            const Source *source = f->source ? f->source : f->tokens->source;
+            path = find_other_case(cv, folder_of(cv, source->name), names[i]);
+        }
+        if (path) {
+            note_found(cv, path, "its letters differ in case");
+            return path;
+        }
+    }
+    return NULL;
+}
+
+const char *source_find(Converter *cv, const char *name, FileKind kind) {
+    if (!*name)
+        return NULL;
+    if (!cv->language->library.count)
+        find_library(cv);
+    const char *names[MAX_NAMES];
+    int count = candidate_names(cv, name, kind, names);
+    for (int i = 0; i < count; i++) {
+        if (file_exists(names[i]))
+            return names[i];
+        for (size_t k = 0; names[i][0] != '/' && k < cv->language->library.count; k++) {
+            const char *path = join(cv, cv->language->library.items[k], names[i]);
+            if (file_exists(path))
+                return path;
+        }
+    }
+    const char *path = find_beside(cv, names, count);
+    return path ? path : find_any_case(cv, names, count);
+}
+
+const Source *source_open(Converter *cv, const char *name, FileKind kind, const Loc *loc) {
+    static const char *const what[] = {"scene file", "include file", "image file", "font file",
+                                       "file"};
+    const Source *written = kind == FILE_SCENE ? NULL : written_source(cv, name);
+    if (written)
+        return written;
+    // A name that exists but is no file gets its own reason.
+    struct stat st;
+    bool folder = stat(name, &st) == 0 && S_ISDIR(st.st_mode);
+    const char *path = source_find(cv, name, kind), *why = folder ? "it is a directory" : NULL;
+    char *text = NULL;
+    size_t size = 0;
+    if (path)
+        text = file_read(cv->arena, path, &size, &why);
+    if (!text) {
+        if (why)
+            die_at(loc, "cannot open %s '%s': %s", what[kind], name, why);
+        die_at(
+            loc,
+            "cannot open %s '%s': not in the working directory, the library paths (+L) or beside "
+            "the scene",
+            what[kind], name);
+    }
+    Source *source = ARENA_NEW(cv->arena, Source);
+    source->name = path;
+    source->text = text;
+    source->size = size;
+    source->utf8 = kind == FILE_SCENE && size > 0 && (unsigned char)text[0] > 127;
+    return source;
+}

@@ -1,0 +1,261 @@
+// SPDX-License-Identifier: MIT
+// Values: what stands right of '=' in a #declare, as a macro's argument, in an array (facts: sdl
+// 3.2, 3.4, 2.9).
+#include "converter/language.h"
+
+#include <string.h>
+
+// ORDER value_type
+static const char *const type_names[] = {
+    "undeclared",  "float",      "uv vector", "vector",      "4d vector",   "color",   "string",
+    "array",       "function",   "spline",    "macro",       "file",        "pigment", "normal",
+    "finish",      "texture",    "material",  "interior",    "media",       "density", "color_map",
+    "pigment_map", "normal_map", "slope_map", "texture_map", "density_map", "fog",     "rainbow",
+    "sky_sphere",  "camera",     "transform", "object",
+};
+_Static_assert(sizeof type_names / sizeof *type_names == VALUE_OBJECT + 1, "ORDER value_type");
+
+const char *value_type_name(ValueType type) { return type_names[type]; }
+
+int value_width(ValueType type) {
+    return type >= VALUE_FLOAT && type <= VALUE_COLOR ? (int)type - VALUE_FLOAT + 1 : 0;
+}
+
+Value value_number(const double c[5], int width) {
+    Value v = {.type = (ValueType)(VALUE_FLOAT + width - 1)};
+    for (int i = 0; i < width; i++)
+        v.c[i] = width == 5 ? (double)(float)c[i] : c[i];
+    return v;
+}
+
+ValueType peek_value_type(Converter *cv) {
+    const Place *place = ahead_place(cv);
+    return place ? place->value->type : VALUE_NONE;
+}
+
+const Value *accept_value(Converter *cv, ValueType type) {
+    const Place *place = ahead_place(cv);
+    if (!place || place->value->type != type || type == VALUE_NONE)
+        return NULL;
+    const Value *value = place->value;
+    next_token(cv);
+    return value;
+}
+
+// ---- arrays -----------------------------------------------------------------------------------
+
+static Array *new_array(Converter *cv, const Array *shape, const Loc *loc) {
+    Language *l = cv->language;
+    if (shape->count > MAX_ELEMENTS || l->elements + shape->count > MAX_ELEMENTS)
+        die_at(loc, "too many array elements: %zu here, %d in all are the limit", shape->count,
+               MAX_ELEMENTS);
+    l->elements += shape->count;
+    Array *array = ARENA_NEW(cv->arena, Array);
+    *array = *shape;
+    array->items = ARENA_ARRAY(cv->arena, Value, shape->count);
+    return array;
+}
+
+static Value clone_value(Converter *cv, const Value *value) {
+    Value copy = *value;
+    if (copy.type == VALUE_ARRAY)
+        copy.node = array_clone(cv, copy.node);
+    return copy;
+}
+
+Array *array_clone(Converter *cv, const Array *array) {
+    enter_level(cv);
+    Loc loc = token_loc(cv, cv->language->last);
+    Array *copy = new_array(cv, array, &loc);
+    for (size_t i = 0; i < array->count; i++)
+        copy->items[i] = clone_value(cv, &array->items[i]);
+    leave_level(cv);
+    return copy;
+}
+
+// '{' elements '}' per dimension, commas optional, all of them.
+static void parse_initializer(Converter *cv, Array *array, int dimension, size_t base) {
+    expect(cv, '{', "array initializer");
+    size_t stride = 1;
+    for (int d = dimension + 1; d < array->dimensions; d++)
+        stride *= array->sizes[d];
+    for (size_t i = 0; i < array->sizes[dimension]; i++) {
+        if (next_is(cv, '}')) {
+            Loc loc = here(cv);
+            die_at(&loc, "insufficient number of initializers: %zu of %zu found", i,
+                   array->sizes[dimension]);
+        }
+        if (dimension + 1 < array->dimensions) {
+            parse_initializer(cv, array, dimension + 1, base + i * stride);
+            continue;
+        }
+        Loc loc = here(cv);
+        Value value;
+        if (!parse_rvalue(cv, RVALUE_ELEMENT, &value, NULL))
+            die_expected(cv, "an array element");
+        Place place = {.value = &array->items[base + i], .array = array};
+        place_assign(cv, &place, &value, &loc);
+        optional_comma(cv);
+    }
+    expect(cv, '}', "array initializer");
+    optional_comma(cv);
+}
+
+// array[F]...[F] [ initializer ]
+Array *parse_array(Converter *cv) {
+    Array shape = {.count = 1};
+    bool held = hold_directives(cv);
+    Loc loc = here(cv);
+    while (accept(cv, '[')) {
+        if (shape.dimensions == MAX_DIMENSIONS)
+            die_at(&loc, "too many array dimensions (%d are the limit)", MAX_DIMENSIONS);
+        Loc at = here(cv);
+        double size = parse_float(cv) + EPSILON;
+        if (!(size >= 1))
+            die_at(&at, "invalid dimension size for an array: %g", size - EPSILON);
+        if (size > MAX_ELEMENTS)
+            die_at(&at, "too many array elements: %.0f here, %d in all are the limit", size,
+                   MAX_ELEMENTS);
+        shape.sizes[shape.dimensions++] = (size_t)size;
+        shape.count *= (size_t)size;
+        if (shape.count > MAX_ELEMENTS)
+            die_at(&at, "too many array elements: %zu here, %d in all are the limit", shape.count,
+                   MAX_ELEMENTS);
+        expect(cv, ']', "array");
+    }
+    if (!shape.dimensions)
+        die_expected(cv, "'[': an array declaration must have at least one dimension");
+    Array *array = new_array(cv, &shape, &loc);
+    bool initialized = next_is(cv, '{');
+    restore_directives(cv, held);
+    if (initialized)
+        parse_initializer(cv, array, 0, 0);
+    return array;
+}
+
+// ---- the right side ---------------------------------------------------------------------------
+
+static void require_semicolon(Converter *cv) {
+    if (accept(cv, ';') || cv->version < 350)
+        return;
+    Loc loc = token_loc(cv, cv->language->last);
+    die_at(&loc,
+           "All #declares of float, vector, and color require semi-colon ';' at end, but %s was "
+           "found after this",
+           token_describe(cv, peek_token(cv)));
+}
+
+// A bare name passed by reference: its place, unless it lives in a scope that ends with the
+// argument (a macro's own local as its value).
+static void set_reference(Place *reference, const Place *place, int level) {
+    if (reference && place->symbol->scope <= level)
+        *reference = *place;
+}
+
+// An ADD expression, or the bare name of a function or spline.
+static void parse_numeric(Converter *cv, RvalueUse use, Value *out, Place *reference) {
+    const Place *ahead = ahead_place(cv);
+    Place place = ahead ? *ahead : (Place){0};
+    ValueType type = ahead ? place.value->type : VALUE_NONE;
+    int level = scope_level(cv);
+    const Token *after = raw_peek(cv);
+    bool held = hold_directives(cv);
+    if ((type == VALUE_FUNCTION || type == VALUE_SPLINE) && (!after || after->code != '(')) {
+        next_token(cv);
+        *out = *place.value;
+        if (type == VALUE_SPLINE)
+            set_reference(reference, &place, level);
+    } else {
+        uint64_t start = cv->language->consumed;
+        double e[5] = {0};
+        int width = parse_add(cv, e, 1);
+        *out = value_number(e, width);
+        if (type != VALUE_NONE && cv->language->consumed == start + 1)
+            set_reference(reference, &place, level);
+    }
+    if (use == RVALUE_DECLARE)
+        require_semicolon(cv);
+    restore_directives(cv, held);
+}
+
+static void parse_color_value(Converter *cv, RvalueUse use, Value *out) {
+    bool held = hold_directives(cv);
+    Color c = parse_color(cv);
+    *out =
+        (Value){.type = VALUE_COLOR,
+                .c = {(double)c.r, (double)c.g, (double)c.b, (double)c.filter, (double)c.transmit}};
+    if (use == RVALUE_DECLARE)
+        require_semicolon(cv);
+    restore_directives(cv, held);
+}
+
+static bool parse_named(Converter *cv, RvalueUse use, Value *out, Place *reference) {
+    const Place *ahead = ahead_place(cv);
+    if (!ahead) {
+        const Token *token = peek_token(cv);
+        Loc loc = token_loc(cv, token);
+        die_at(&loc,
+               use == RVALUE_ARGUMENT
+                   ? "undeclared identifier '%s': it cannot be passed to a macro before it "
+                     "has a value"
+                   : "undeclared identifier '%s': it has no value to assign",
+               token->text);
+    }
+    Place place = *ahead;
+    if (value_width(place.value->type) || place.value->type == VALUE_FUNCTION ||
+        place.value->type == VALUE_SPLINE)
+        return false;
+    if (place.value->type == VALUE_FILE)
+        die_expected(cv, "a value");
+    int level = scope_level(cv);
+    next_token(cv);
+    if (reference && place.symbol->scope <= level) {
+        *reference = place;
+        *out = *place.value;
+    } else {
+        *out = clone_value(cv, place.value);
+    }
+    return true;
+}
+
+static bool parse_kind(Converter *cv, RvalueUse use, Value *out, Place *reference) {
+    int code = peek_token(cv)->code;
+    if (code == TOK_IDENTIFIER && parse_named(cv, use, out, reference))
+        return true;
+    bool old_color = cv->version < 350 && peek_value_type(cv) == VALUE_COLOR;
+    if (is_color_keyword(code) || old_color) {
+        parse_color_value(cv, use, out);
+    } else if (code == TOK_STRING || is_string_keyword(code)) {
+        *out = (Value){.type = VALUE_STRING, .string = parse_string(cv)};
+    } else if (accept(cv, KW_array)) {
+        *out = (Value){.type = VALUE_ARRAY, .node = parse_array(cv)};
+    } else if (accept(cv, KW_function)) {
+        *out = (Value){.type = VALUE_FUNCTION, .node = parse_function(cv)};
+    } else if (accept(cv, KW_spline)) {
+        *out = (Value){.type = VALUE_SPLINE, .node = parse_spline(cv)};
+    } else if (code == KW_t || starts_expression(cv)) {
+        parse_numeric(cv, use, out, reference);
+    } else {
+        return parse_statement_value(cv, out);
+    }
+    return true;
+}
+
+bool parse_rvalue(Converter *cv, RvalueUse use, Value *out, Place *reference) {
+    enter_level(cv);
+    *out = (Value){0};
+    if (reference)
+        *reference = (Place){0};
+    bool held = release_directives(cv);
+    bool found = parse_kind(cv, use, out, reference);
+    restore_directives(cv, held);
+    leave_level(cv);
+    return found;
+}
+
+Value parse_value(Converter *cv) {
+    Value value;
+    if (!parse_rvalue(cv, RVALUE_ELEMENT, &value, NULL))
+        die_expected(cv, "a value");
+    return value;
+}

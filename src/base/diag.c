@@ -156,3 +156,5 @@ bool diag_catch(void (*body)(void *), void *arg, char **message) {
         free(frame.message);
     return false;
 }
+
+void diag_rethrow(char *message) { raise_message(message); }

@@ -39,5 +39,7 @@ size_t diag_warning_count(void);
 // freed by free(), whole text as it would have been printed, without the trailing newline) says
 // why. Locals of the caller that body changes through arg are safe; register copies are not.
 bool diag_catch(void (*body)(void *), void *arg, char **message);
+// Dies again with a message that diag_catch gave, after the catcher has cleaned up.
+_Noreturn void diag_rethrow(char *message);
 
 #endif

@@ -19,7 +19,7 @@
 
 // ---- settings -------------------------------------------------------------------------------
 
-// ORDER gamma_mode (names in scene_json.c)
+// ORDER gamma_mode (names in scene_fields.c)
 typedef enum {
     GAMMA_NONE,  // no assumed_gamma and effective version < 3.7: numbers are written unchanged
     GAMMA_POWER, // working space is a power law; assumed_gamma 1.0 is linear
@@ -294,14 +294,17 @@ void scene_collect_requires(Scene *scene, Arena *arena);
 // ---- the scene file: JSON, see README "The scene file" ----------------------------------------
 
 typedef struct {
-    bool binary; // large arrays to a side file "<name>.bin" (always above 10,000 patches)
+    bool binary; // control points to a side file, "x.qi.bin" beside "x.qi.json" (always above
+                 // 10,000 patches)
 } SceneWriteOptions;
 
 // Writes path whole or not at all ("-": standard output, never binary); dies with a message if not.
+// The scene is validated first. An object stands where it is in its tree; its index is not kept.
 void scene_write(const Scene *scene, const char *path, const SceneWriteOptions *options);
 
 // Reads and validates; dies with file:line:col for a syntax error, with the field's name for the
-// rest. All memory in arena.
+// rest. Objects are numbered as a walk of the trees meets them: a parent, then its children. All
+// memory in arena.
 Scene *scene_read(const char *path, Arena *arena);
 
 #endif

@@ -1,0 +1,275 @@
+// SPDX-License-Identifier: MIT
+// POV-Ray 3.7's defaults (facts: rendering 1.1, 4.4; sdl 4.12) and the list of features that a
+// scene needs from its renderer. The defaults serve twice: the converter starts from them, and the
+// scene file leaves out what equals them.
+#include "model/scene.h"
+
+#include "model/scene_requires.h"
+
+#include <string.h>
+
+Settings settings_default(void) {
+    return (Settings){
+        .version = 370,
+        .gamma_mode = GAMMA_POWER,
+        .assumed_gamma = 1.0f,
+        .ambient_light = {1.0f, 1.0f, 1.0f},
+        .max_trace_level = 5,
+        .adc_bailout = (float)(1.0 / 255.0),
+        .noise_generator = 2,
+        .number_of_waves = 10,
+        .irid_wavelength = {0.70f, 0.52f, 0.48f},
+        .background = {.transmit = 1.0f},
+    };
+}
+
+Camera camera_default(void) {
+    return (Camera){
+        .type = CAMERA_PERSPECTIVE,
+        .direction = {0, 0, 1},
+        .up = {0, 1, 0},
+        .right = {1.33, 0, 0},
+        .angle_deg = 90,
+    };
+}
+
+Finish finish_default(void) {
+    return (Finish){
+        .ambient = {0.1f, 0.1f, 0.1f},
+        .diffuse = 0.6f,
+        .brilliance = 1.0f,
+        .phong_size = 40.0f,
+        .roughness = 0.05f,
+        .reflection_falloff = 1.0f,
+        .reflection_exponent = 1.0f,
+    };
+}
+
+Interior interior_default(void) { return (Interior){.ior = 1.0f}; }
+
+Pattern pattern_default(void) {
+    return (Pattern){.type = PATTERN_PLAIN, .wave = WAVE_RAMP, .frequency = 1, .exponent = 1};
+}
+
+static PatchShape patch_default(void) {
+    return (PatchShape){
+        .degree_u = 3,
+        .degree_v = 3,
+        .type = 1,
+        .uv = {{0, 0}, {1, 0}, {1, 1}, {0, 1}},
+    };
+}
+
+Object object_default(ObjectType type) {
+    Object object;
+    memset(&object, 0, sizeof object);
+    object.type = type;
+    object.texture = object.interior_texture = object.interior = NO_INDEX;
+    object.transform = transform_identity();
+    if (type == OBJECT_PATCH)
+        object.shape.patch = patch_default();
+    return object;
+}
+
+// ---- requires -------------------------------------------------------------------------------
+
+// ORDER feature: sorted by byte, so that bits in order give a sorted list.
+#define FEATURES(X)                                                                                \
+    X(bezier_patch)                                                                                \
+    X(bicubic_patch)                                                                               \
+    X(box)                                                                                         \
+    X(brilliance)                                                                                  \
+    X(caustics)                                                                                    \
+    X(checker)                                                                                     \
+    X(cone)                                                                                        \
+    X(conserve_energy)                                                                             \
+    X(crand)                                                                                       \
+    X(cylinder)                                                                                    \
+    X(diffuse_back)                                                                                \
+    X(disc)                                                                                        \
+    X(double_illuminate)                                                                           \
+    X(gradient)                                                                                    \
+    X(hollow)                                                                                      \
+    X(interior_fade)                                                                               \
+    X(interior_texture)                                                                            \
+    X(inverse)                                                                                     \
+    X(irid)                                                                                        \
+    X(layered_texture)                                                                             \
+    X(light_fade)                                                                                  \
+    X(merge)                                                                                       \
+    X(metallic)                                                                                    \
+    X(no_image)                                                                                    \
+    X(no_reflection)                                                                               \
+    X(no_shadow)                                                                                   \
+    X(orthographic)                                                                                \
+    X(parallel_light)                                                                              \
+    X(pattern_warp)                                                                                \
+    X(pattern_wave)                                                                                \
+    X(perspective)                                                                                 \
+    X(phong)                                                                                       \
+    X(pigment_map)                                                                                 \
+    X(plane)                                                                                       \
+    X(point_light)                                                                                 \
+    X(reflection)                                                                                  \
+    X(reflection_fresnel)                                                                          \
+    X(refraction)                                                                                  \
+    X(shadowless_light)                                                                            \
+    X(sky_sphere)                                                                                  \
+    X(specular)                                                                                    \
+    X(sphere)                                                                                      \
+    X(torus)                                                                                       \
+    X(transparency)                                                                                \
+    X(triangle)                                                                                    \
+    X(union)                                                                                       \
+    X(uv_mapping)
+
+typedef enum {
+#define X(word) FEATURE_##word,
+    FEATURES(X)
+#undef X
+        FEATURE_COUNT
+} Feature;
+_Static_assert(FEATURE_COUNT <= 64, "one bit of a uint64_t each");
+
+static const char *const FEATURE_NAMES[] = {
+#define X(word) #word,
+    FEATURES(X)
+#undef X
+};
+
+typedef uint64_t FeatureSet;
+
+static void need(FeatureSet *set, Feature feature, bool needed) {
+    *set |= (FeatureSet)needed << feature;
+}
+
+static bool is_black(Rgb c) { return c.r == 0 && c.g == 0 && c.b == 0; }
+static bool is_clear(Color c) { return c.filter != 0 || c.transmit != 0; }
+
+static void collect_lights(const Scene *scene, FeatureSet *set) {
+    for (uint32_t i = 0; i < scene->light_count; i++) {
+        const Light *light = &scene->lights[i];
+        need(set, FEATURE_point_light, light->type == LIGHT_POINT);
+        need(set, FEATURE_parallel_light, light->type == LIGHT_PARALLEL);
+        need(set, FEATURE_shadowless_light, light->shadowless);
+        need(set, FEATURE_light_fade, light->fade_distance != 0 && light->fade_power > 0);
+    }
+}
+
+static void collect_pigments(const Scene *scene, FeatureSet *set) {
+    for (uint32_t i = 0; i < scene->pigment_count; i++) {
+        const Pigment *pigment = &scene->pigments[i];
+        bool plain = pigment->pattern.type == PATTERN_PLAIN;
+        need(set, FEATURE_checker, pigment->pattern.type == PATTERN_CHECKER);
+        need(set, FEATURE_gradient, pigment->pattern.type == PATTERN_GRADIENT);
+        need(set, FEATURE_pattern_wave, !plain && pigment->pattern.wave != WAVE_RAMP);
+        need(set, FEATURE_pattern_warp, pigment->pattern.warp_count > 0);
+        need(set, FEATURE_uv_mapping, pigment->uv_mapping);
+        need(set, FEATURE_transparency, plain && is_clear(pigment->color));
+        for (uint32_t j = 0; j < pigment->entry_count; j++) {
+            bool map = pigment->entries[j].pigment != NO_INDEX;
+            need(set, FEATURE_pigment_map, map);
+            need(set, FEATURE_transparency, !map && is_clear(pigment->entries[j].color));
+        }
+    }
+}
+
+static void collect_finish(const Finish *finish, FeatureSet *set) {
+    need(set, FEATURE_brilliance, finish->brilliance != 1);
+    need(set, FEATURE_diffuse_back, finish->diffuse_back != 0);
+    need(set, FEATURE_crand, finish->crand != 0);
+    need(set, FEATURE_phong, finish->phong != 0);
+    need(set, FEATURE_specular, finish->specular != 0);
+    need(set, FEATURE_metallic, finish->metallic != 0 || finish->reflection_metallic != 0);
+    need(set, FEATURE_reflection,
+         !is_black(finish->reflection_min) || !is_black(finish->reflection_max));
+    need(set, FEATURE_reflection_fresnel, finish->reflection_fresnel);
+    need(set, FEATURE_conserve_energy, finish->conserve_energy);
+    need(set, FEATURE_irid, finish->irid != 0);
+}
+
+static void collect_textures(const Scene *scene, FeatureSet *set) {
+    for (uint32_t i = 0; i < scene->texture_count; i++) {
+        const Texture *texture = &scene->textures[i];
+        need(set, FEATURE_layered_texture, texture->layer_count > 1);
+        need(set, FEATURE_uv_mapping, texture->uv_mapping);
+        for (uint32_t j = 0; j < texture->layer_count; j++)
+            collect_finish(&texture->layers[j].finish, set);
+    }
+    for (uint32_t i = 0; i < scene->interior_count; i++) {
+        const Interior *interior = &scene->interiors[i];
+        need(set, FEATURE_refraction, interior->ior != 1);
+        need(set, FEATURE_caustics, interior->caustics != 0);
+        need(set, FEATURE_interior_fade, interior->fade_distance != 0);
+    }
+}
+
+static Feature object_feature(const Object *object) {
+    switch (object->type) {
+    case OBJECT_UNION:
+        return FEATURE_union;
+    case OBJECT_MERGE:
+        return FEATURE_merge;
+    case OBJECT_PATCH: {
+        const PatchShape *patch = &object->shape.patch;
+        bool bicubic = patch->degree_u == 3 && patch->degree_v == 3;
+        return bicubic ? FEATURE_bicubic_patch : FEATURE_bezier_patch;
+    }
+    case OBJECT_PLANE:
+        return FEATURE_plane;
+    case OBJECT_SPHERE:
+        return FEATURE_sphere;
+    case OBJECT_BOX:
+        return FEATURE_box;
+    case OBJECT_CYLINDER:
+        return FEATURE_cylinder;
+    case OBJECT_CONE:
+        return FEATURE_cone;
+    case OBJECT_TORUS:
+        return FEATURE_torus;
+    case OBJECT_DISC:
+        return FEATURE_disc;
+    case OBJECT_TRIANGLE:
+        break;
+    }
+    return FEATURE_triangle;
+}
+
+static void collect_objects(const Scene *scene, FeatureSet *set) {
+    for (uint32_t i = 0; i < scene->object_count; i++) {
+        const Object *object = &scene->objects[i];
+        need(set, object_feature(object), true);
+        need(set, FEATURE_interior_texture, object->interior_texture != NO_INDEX);
+        need(set, FEATURE_no_shadow, object->no_shadow);
+        need(set, FEATURE_no_image, object->no_image);
+        need(set, FEATURE_no_reflection, object->no_reflection);
+        need(set, FEATURE_hollow, object->hollow);
+        need(set, FEATURE_inverse, object->inverse);
+        need(set, FEATURE_double_illuminate, object->double_illuminate);
+        need(set, FEATURE_uv_mapping, object->uv_mapping);
+    }
+}
+
+void scene_collect_requires(Scene *scene, Arena *arena) {
+    FeatureSet set = 0;
+    need(&set, FEATURE_perspective, scene->camera.type == CAMERA_PERSPECTIVE);
+    need(&set, FEATURE_orthographic, scene->camera.type == CAMERA_ORTHOGRAPHIC);
+    need(&set, FEATURE_sky_sphere, scene->has_sky_sphere);
+    collect_lights(scene, &set);
+    collect_pigments(scene, &set);
+    collect_textures(scene, &set);
+    collect_objects(scene, &set);
+
+    scene->requires = ARENA_ARRAY(arena, const char *, FEATURE_COUNT);
+    scene->requires_count = 0;
+    for (int i = 0; i < FEATURE_COUNT; i++)
+        if (set >> i & 1)
+    scene->requires[scene->requires_count++] = FEATURE_NAMES[i];
+}
+
+bool scene_requires_known(const char *word) {
+    for (int i = 0; i < FEATURE_COUNT; i++)
+        if (strcmp(word, FEATURE_NAMES[i]) == 0)
+            return true;
+    return false;
+}

@@ -1,0 +1,553 @@
+// SPDX-License-Identifier: MIT
+#include "random_scene.h"
+
+#include <math.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <string.h>
+
+// ---- numbers --------------------------------------------------------------------------------
+
+double random_double(Rng *rng) {
+    switch (rng_next(rng) % 8) {
+    case 0:
+        return 0.0;
+    case 1:
+        return -0.0;
+    case 2:
+        return (double)(int64_t)(rng_next(rng) % 2001) - 1000;
+    case 3:
+        return 4.9406564584124654e-324 * (double)(rng_next(rng) % 5000);
+    case 4:
+        return rng_range(rng, -1, 1) * pow(10, rng_range(rng, -300, 60));
+    case 5:
+        return floor(rng_unit(rng) * 1000) / 1000;
+    default:
+        return rng_range(rng, -10, 10);
+    }
+}
+
+float random_float(Rng *rng) {
+    if (rng_next(rng) % 2)
+        return (float)(floor(rng_unit(rng) * 100) / 100);
+    for (;;) {
+        uint32_t bits = (uint32_t)rng_next(rng);
+        float value;
+        memcpy(&value, &bits, sizeof value);
+        if (isfinite(value))
+            return value;
+    }
+}
+
+static bool random_bool(Rng *rng) { return rng_next(rng) % 2; }
+static uint32_t random_below(Rng *rng, uint32_t count) { return (uint32_t)(rng_next(rng) % count); }
+static Vec3 random_vec3(Rng *rng) {
+    double x = random_double(rng), y = random_double(rng);
+    return vec3(x, y, random_double(rng));
+}
+static Vec3 random_unit(Rng *rng) {
+    double x = rng_range(rng, -1, 1), y = rng_range(rng, -1, 1);
+    return vec_normalize(vec3(x, y, rng_range(rng, 0.1, 1)));
+}
+static Rgb random_rgb(Rng *rng) {
+    float r = random_float(rng), g = random_float(rng);
+    return rgb(r, g, random_float(rng));
+}
+static Color random_color(Rng *rng) {
+    Rgb c = random_rgb(rng);
+    bool opaque = random_bool(rng);
+    float filter = opaque ? 0 : random_float(rng), transmit = opaque ? 0 : random_float(rng);
+    return (Color){c.r, c.g, c.b, filter, transmit};
+}
+
+static Transform random_transform(Rng *rng) {
+    Transform all = transform_identity();
+    int count = (int)random_below(rng, 4);
+    for (int i = 0; i < count; i++) {
+        double x = rng_range(rng, 0.1, 9), y = rng_range(rng, -9, -0.1), z = rng_range(rng, 1, 90);
+        Transform t = transform_translate(vec3(x, y, z));
+        uint32_t kind = random_below(rng, 4);
+        if (kind == 0)
+            t = transform_scale(vec3(x, y, z));
+        else if (kind == 1)
+            t = transform_rotate(vec3(x, y, z));
+        else if (kind == 2)
+            (void)transform_matrix((const double[4][3]){{x, y, 0}, {0, z, x}, {y, 0, x}, {1, 2, z}},
+                                   &t);
+        all = transform_compose(&all, &t);
+    }
+    return all;
+}
+
+// ---- the members ----------------------------------------------------------------------------
+
+#define SETTINGS_MEMBERS(X)                                                                        \
+    X(int, version)                                                                                \
+    X(GammaMode, gamma_mode)                                                                       \
+    X(float, assumed_gamma)                                                                        \
+    X(Rgb, ambient_light)                                                                          \
+    X(int, max_trace_level)                                                                        \
+    X(float, adc_bailout)                                                                          \
+    X(int, noise_generator)                                                                        \
+    X(int, number_of_waves)                                                                        \
+    X(Rgb, irid_wavelength)                                                                        \
+    X(Color, background)
+#define CAMERA_MEMBERS(X)                                                                          \
+    X(CameraType, type)                                                                            \
+    X(Vec3, location) X(Vec3, direction) X(Vec3, up) X(Vec3, right) X(double, angle_deg)
+#define LIGHT_MEMBERS(X)                                                                           \
+    X(LightType, type)                                                                             \
+    X(Vec3, location)                                                                              \
+    X(Vec3, point_at) X(Rgb, color) X(bool, shadowless) X(float, fade_distance) X(float, fade_power)
+#define PATTERN_MEMBERS(X)                                                                         \
+    X(PatternType, pattern.type)                                                                   \
+    X(WaveType, pattern.wave)                                                                      \
+    X(float, pattern.frequency)                                                                    \
+    X(float, pattern.phase)                                                                        \
+    X(float, pattern.exponent) X(Vec3, pattern.gradient) X(uint32_t, pattern.warp_count)
+#define PIGMENT_MEMBERS(X)                                                                         \
+    X(Color, color)                                                                                \
+    X(uint32_t, entry_count) X(bool, uv_mapping) X(bool, has_quick_color) X(Color, quick_color)
+#define FINISH_FLOATS(X)                                                                           \
+    X(float, diffuse)                                                                              \
+    X(float, diffuse_back)                                                                         \
+    X(float, brilliance)                                                                           \
+    X(float, crand)                                                                                \
+    X(float, phong)                                                                                \
+    X(float, phong_size)                                                                           \
+    X(float, specular)                                                                             \
+    X(float, roughness)                                                                            \
+    X(float, metallic)                                                                             \
+    X(float, reflection_falloff)                                                                   \
+    X(float, reflection_exponent)                                                                  \
+    X(float, reflection_metallic) X(float, irid) X(float, irid_thickness) X(float, irid_turbulence)
+#define FINISH_MEMBERS(X)                                                                          \
+    FINISH_FLOATS(X)                                                                               \
+    X(Rgb, ambient)                                                                                \
+    X(Rgb, emission)                                                                               \
+    X(Rgb, reflection_min)                                                                         \
+    X(Rgb, reflection_max) X(bool, reflection_fresnel) X(bool, conserve_energy)
+#define INTERIOR_MEMBERS(X)                                                                        \
+    X(float, ior)                                                                                  \
+    X(float, caustics) X(float, fade_distance) X(float, fade_power) X(Rgb, fade_color)
+#define OBJECT_FLAGS(X)                                                                            \
+    X(bool, no_shadow)                                                                             \
+    X(bool, no_image)                                                                              \
+    X(bool, no_reflection)                                                                         \
+    X(bool, hollow) X(bool, inverse) X(bool, double_illuminate) X(bool, uv_mapping)
+#define OBJECT_MEMBERS(X)                                                                          \
+    OBJECT_FLAGS(X)                                                                                \
+    X(ObjectType, type)                                                                            \
+    X(uint32_t, texture)                                                                           \
+    X(uint32_t, interior_texture) X(uint32_t, interior) X(bool, has_transform)
+
+// ---- making ---------------------------------------------------------------------------------
+
+static Settings make_settings(Rng *rng) {
+    Settings s = settings_default();
+    if (random_bool(rng))
+        return s;
+    s.version = 310 + (int)random_below(rng, 61);
+    s.gamma_mode = (GammaMode)random_below(rng, 3);
+    s.assumed_gamma = (float)rng_range(rng, 0.1, 3);
+    s.ambient_light = random_rgb(rng);
+    s.max_trace_level = 1 + (int)random_below(rng, 256);
+    s.adc_bailout = random_float(rng);
+    s.noise_generator = 1 + (int)random_below(rng, 3);
+    s.number_of_waves = (int)random_below(rng, 30);
+    s.irid_wavelength = random_rgb(rng);
+    s.background = random_color(rng);
+    return s;
+}
+
+static Camera make_camera(Rng *rng) {
+    return (Camera){
+        .type = (CameraType)random_below(rng, 2),
+        .location = random_vec3(rng),
+        .direction = random_unit(rng),
+        .up = random_vec3(rng),
+        .right = random_vec3(rng),
+        .angle_deg = random_double(rng),
+    };
+}
+
+static Light make_light(Rng *rng) {
+    return (Light){
+        .type = (LightType)random_below(rng, 2),
+        .location = random_vec3(rng),
+        .point_at = vec3(rng_range(rng, 20, 30), random_double(rng), 3), // never the location
+        .color = random_rgb(rng),
+        .shadowless = random_bool(rng),
+        .fade_distance = random_float(rng),
+        .fade_power = random_float(rng),
+    };
+}
+
+static Pattern make_pattern(Rng *rng, Arena *arena) {
+    Pattern p = pattern_default();
+    p.type = (PatternType)random_below(rng, PATTERN_MODELLED);
+    p.wave = (WaveType)random_below(rng, 6);
+    p.frequency = random_float(rng);
+    p.phase = random_float(rng);
+    p.exponent = random_float(rng);
+    p.gradient = random_unit(rng);
+    p.warp_count = random_below(rng, 3);
+    p.warps = ARENA_ARRAY(arena, Warp, p.warp_count);
+    for (uint32_t i = 0; i < p.warp_count; i++)
+        p.warps[i] = (Warp){.type = WARP_TRANSFORM, .transform = random_transform(rng)};
+    return p;
+}
+
+// Refers only to pigments of a lower index, so that there are no circles.
+static Pigment make_pigment(Rng *rng, Arena *arena, uint32_t index) {
+    Pigment p = {.pattern = make_pattern(rng, arena), .uv_mapping = random_bool(rng)};
+    p.color = random_color(rng);
+    if (p.pattern.type != PATTERN_PLAIN)
+        p.entry_count = 1 + random_below(rng, 4);
+    p.entries = ARENA_ARRAY(arena, MapEntry, p.entry_count);
+    for (uint32_t i = 0; i < p.entry_count; i++) {
+        bool map = index > 0 && random_bool(rng);
+        p.entries[i] = (MapEntry){
+            .value = random_float(rng),
+            .color = random_color(rng),
+            .pigment = map ? random_below(rng, index) : NO_INDEX,
+        };
+    }
+    p.has_quick_color = random_bool(rng);
+    if (p.has_quick_color)
+        p.quick_color = random_color(rng);
+    return p;
+}
+
+static Finish make_finish(Rng *rng) {
+    Finish f = finish_default();
+    if (random_bool(rng))
+        return f;
+#define MAKE(Type, name) f.name = random_float(rng);
+    FINISH_FLOATS(MAKE)
+#undef MAKE
+    f.roughness = (float)rng_range(rng, 0.001, 1);
+    f.reflection_exponent = (float)rng_range(rng, 0.1, 3);
+    f.ambient = random_rgb(rng);
+    f.emission = random_rgb(rng);
+    f.reflection_min = random_rgb(rng);
+    f.reflection_max = random_rgb(rng);
+    f.reflection_fresnel = random_bool(rng);
+    f.conserve_energy = random_bool(rng);
+    return f;
+}
+
+static Texture make_texture(Rng *rng, Arena *arena, uint32_t pigments) {
+    Texture t = {.layer_count = 1 + random_below(rng, 3), .uv_mapping = random_bool(rng)};
+    t.layers = ARENA_ARRAY(arena, Layer, t.layer_count);
+    for (uint32_t i = 0; i < t.layer_count; i++)
+        t.layers[i] = (Layer){random_below(rng, pigments), make_finish(rng)};
+    return t;
+}
+
+static Interior make_interior(Rng *rng) {
+    return (Interior){
+        .ior = (float)rng_range(rng, 0.5, 3),
+        .caustics = random_float(rng),
+        .fade_distance = random_float(rng),
+        .fade_power = random_float(rng),
+        .fade_color = random_rgb(rng),
+    };
+}
+
+static void make_patch(Rng *rng, Arena *arena, PatchShape *patch) {
+    if (random_bool(rng)) {
+        patch->degree_u = 1 + random_below(rng, 16);
+        patch->degree_v = 1 + random_below(rng, 16);
+    }
+    uint32_t count = (patch->degree_u + 1) * (patch->degree_v + 1);
+    patch->points = ARENA_ARRAY(arena, Vec3, count);
+    for (uint32_t i = 0; i < count; i++)
+        patch->points[i] = random_vec3(rng);
+    if (random_bool(rng))
+        return;
+    patch->type = (int)random_below(rng, 2);
+    patch->flatness = random_double(rng);
+    patch->u_steps = (int)random_below(rng, 9);
+    patch->v_steps = (int)random_below(rng, 9);
+    for (int i = 0; i < 4; i++)
+        patch->uv[i] = (Vec2){random_double(rng), random_double(rng)};
+}
+
+static void make_shape(Rng *rng, Arena *arena, Object *object) {
+    double size = rng_range(rng, 0, 100);
+    Vec3 a = random_vec3(rng), b = random_vec3(rng);
+    switch (object->type) {
+    case OBJECT_UNION:
+    case OBJECT_MERGE:
+        break;
+    case OBJECT_PATCH:
+        make_patch(rng, arena, &object->shape.patch);
+        break;
+    case OBJECT_PLANE:
+        object->shape.plane = (PlaneShape){random_unit(rng), random_double(rng)};
+        break;
+    case OBJECT_SPHERE:
+        object->shape.sphere = (SphereShape){a, size};
+        break;
+    case OBJECT_BOX:
+        object->shape.box = (BoxShape){vec_min(a, b), vec_max(a, b)};
+        break;
+    case OBJECT_CYLINDER:
+    case OBJECT_CONE:
+        b.x = a.x == 7 ? 8 : 7; // another point than a
+        object->shape.cone = (ConeShape){a, b, size, rng_unit(rng), random_bool(rng)};
+        break;
+    case OBJECT_TORUS:
+        object->shape.torus = (TorusShape){size, rng_unit(rng)};
+        break;
+    case OBJECT_DISC:
+        object->shape.disc = (DiscShape){a, random_unit(rng), size, rng_unit(rng)};
+        break;
+    case OBJECT_TRIANGLE:
+        object->shape.triangle = (TriangleShape){{a, b, random_vec3(rng)}};
+        break;
+    }
+}
+
+enum { MAX_OBJECTS = 200 };
+
+static uint32_t index_or_none(Rng *rng, uint32_t count) {
+    return random_bool(rng) ? NO_INDEX : random_below(rng, count);
+}
+
+// A list of objects and what hangs below; writes their indices to *items.
+static uint32_t make_objects(Rng *rng, Arena *arena, Scene *scene, int depth, uint32_t **items) {
+    uint32_t count = random_below(rng, depth == 0 ? 20 : 5);
+    *items = ARENA_ARRAY(arena, uint32_t, count);
+    for (uint32_t i = 0; i < count; i++) {
+        bool leaf = depth > 3 || scene->object_count > MAX_OBJECTS - 60;
+        ObjectType type = (ObjectType)(leaf ? 2 + random_below(rng, 9) : random_below(rng, 11));
+        uint32_t index = scene->object_count++;
+        Object object = object_default(type);
+        object.texture = index_or_none(rng, scene->texture_count);
+        object.interior_texture = index_or_none(rng, scene->texture_count);
+        object.interior = index_or_none(rng, scene->interior_count);
+#define MAKE(Type, name) object.name = rng_next(rng) % 4 == 0;
+        OBJECT_FLAGS(MAKE)
+#undef MAKE
+        if (type >= OBJECT_SPHERE && type <= OBJECT_DISC && random_bool(rng)) {
+            object.has_transform = true;
+            object.transform = random_transform(rng);
+        }
+        make_shape(rng, arena, &object);
+        if (type == OBJECT_UNION || type == OBJECT_MERGE)
+            object.shape.children.count =
+                make_objects(rng, arena, scene, depth + 1, &object.shape.children.items);
+        scene->objects[index] = object;
+        (*items)[i] = index;
+    }
+    return count;
+}
+
+static void make_sky_sphere(Rng *rng, Arena *arena, Scene *scene) {
+    scene->has_sky_sphere = random_bool(rng);
+    if (!scene->has_sky_sphere)
+        return;
+    SkySphere *sky = &scene->sky_sphere;
+    sky->pigment_count = 1 + random_below(rng, 3);
+    sky->pigments = ARENA_ARRAY(arena, uint32_t, sky->pigment_count);
+    for (uint32_t i = 0; i < sky->pigment_count; i++)
+        sky->pigments[i] = random_below(rng, scene->pigment_count);
+    sky->emission = random_rgb(rng);
+    sky->transform = random_transform(rng);
+}
+
+Scene *random_scene(Rng *rng, Arena *arena) {
+    Scene *scene = ARENA_NEW(arena, Scene);
+    scene->settings = make_settings(rng);
+    scene->camera = make_camera(rng);
+    scene->light_count = random_below(rng, 4);
+    scene->pigment_count = 1 + random_below(rng, 6);
+    scene->texture_count = 1 + random_below(rng, 4);
+    scene->interior_count = 1 + random_below(rng, 3);
+    scene->lights = ARENA_ARRAY(arena, Light, scene->light_count);
+    scene->pigments = ARENA_ARRAY(arena, Pigment, scene->pigment_count);
+    scene->textures = ARENA_ARRAY(arena, Texture, scene->texture_count);
+    scene->interiors = ARENA_ARRAY(arena, Interior, scene->interior_count);
+    for (uint32_t i = 0; i < scene->light_count; i++)
+        scene->lights[i] = make_light(rng);
+    for (uint32_t i = 0; i < scene->pigment_count; i++)
+        scene->pigments[i] = make_pigment(rng, arena, i);
+    for (uint32_t i = 0; i < scene->texture_count; i++)
+        scene->textures[i] = make_texture(rng, arena, scene->pigment_count);
+    for (uint32_t i = 0; i < scene->interior_count; i++)
+        scene->interiors[i] = make_interior(rng);
+    make_sky_sphere(rng, arena, scene);
+    scene->objects = ARENA_ARRAY(arena, Object, MAX_OBJECTS);
+    scene->root_count = make_objects(rng, arena, scene, 0, &scene->roots);
+    scene_collect_requires(scene, arena);
+    return scene;
+}
+
+// ---- comparing ------------------------------------------------------------------------------
+
+// Member by member, since the bytes between members say nothing.
+#define COMPARE(Type, name)                                                                        \
+    if (memcmp(&a->name, &b->name, sizeof(Type)) != 0)                                             \
+        return #name;
+#define COMPARE_ALL(a, b, count)                                                                   \
+    if ((count) > 0 && memcmp(a, b, (size_t)(count) * sizeof *(a)) != 0)                           \
+        return #a;
+#define COMPARE_EACH(list, count, compare)                                                         \
+    for (uint32_t i = 0; i < a->count; i++) {                                                      \
+        const char *found = compare(&a->list[i], &b->list[i]);                                     \
+        if (found)                                                                                 \
+            return found;                                                                          \
+    }
+
+static const char *transform_difference(const Transform *a, const Transform *b) {
+    COMPARE_ALL(a->m, b->m, 4)
+    COMPARE_ALL(a->inv, b->inv, 4)
+    return NULL;
+}
+
+static const char *settings_difference(const Settings *a, const Settings *b) {
+    SETTINGS_MEMBERS(COMPARE)
+    return NULL;
+}
+
+static const char *camera_difference(const Camera *a, const Camera *b) {
+    CAMERA_MEMBERS(COMPARE)
+    return NULL;
+}
+
+static const char *light_difference(const Light *a, const Light *b) {
+    LIGHT_MEMBERS(COMPARE)
+    return NULL;
+}
+
+static const char *warp_difference(const Warp *a, const Warp *b) {
+    COMPARE(WarpType, type)
+    return transform_difference(&a->transform, &b->transform);
+}
+
+static const char *pigment_difference(const Pigment *a, const Pigment *b) {
+    PATTERN_MEMBERS(COMPARE)
+    PIGMENT_MEMBERS(COMPARE)
+    COMPARE_ALL(a->entries, b->entries, a->entry_count)
+    COMPARE_EACH(pattern.warps, pattern.warp_count, warp_difference)
+    return NULL;
+}
+
+static const char *finish_difference(const Finish *a, const Finish *b) {
+    FINISH_MEMBERS(COMPARE)
+    return NULL;
+}
+
+static const char *layer_difference(const Layer *a, const Layer *b) {
+    COMPARE(uint32_t, pigment)
+    return finish_difference(&a->finish, &b->finish);
+}
+
+static const char *texture_difference(const Texture *a, const Texture *b) {
+    COMPARE(uint32_t, layer_count)
+    COMPARE(bool, uv_mapping)
+    COMPARE_EACH(layers, layer_count, layer_difference)
+    return NULL;
+}
+
+static const char *interior_difference(const Interior *a, const Interior *b) {
+    INTERIOR_MEMBERS(COMPARE)
+    return NULL;
+}
+
+static const char *patch_difference(const PatchShape *a, const PatchShape *b) {
+    COMPARE(uint32_t, degree_u)
+    COMPARE(uint32_t, degree_v)
+    COMPARE(int, type)
+    COMPARE(double, flatness)
+    COMPARE(int, u_steps)
+    COMPARE(int, v_steps)
+    COMPARE_ALL(a->uv, b->uv, 4)
+    COMPARE_ALL(a->points, b->points, (a->degree_u + 1) * (a->degree_v + 1))
+    return NULL;
+}
+
+static const char *shape_difference(const Object *a, const Object *b) {
+    switch (a->type) {
+    case OBJECT_UNION:
+    case OBJECT_MERGE:
+        COMPARE(uint32_t, shape.children.count)
+        COMPARE_ALL(a->shape.children.items, b->shape.children.items, a->shape.children.count)
+        break;
+    case OBJECT_PATCH:
+        return patch_difference(&a->shape.patch, &b->shape.patch);
+    case OBJECT_PLANE:
+        COMPARE(PlaneShape, shape.plane)
+        break;
+    case OBJECT_SPHERE:
+        COMPARE(SphereShape, shape.sphere)
+        break;
+    case OBJECT_BOX:
+        COMPARE(BoxShape, shape.box)
+        break;
+    case OBJECT_CYLINDER:
+    case OBJECT_CONE:
+        COMPARE(Vec3, shape.cone.base)
+        COMPARE(Vec3, shape.cone.apex)
+        COMPARE(double, shape.cone.base_radius)
+        COMPARE(double, shape.cone.apex_radius)
+        COMPARE(bool, shape.cone.open)
+        break;
+    case OBJECT_TORUS:
+        COMPARE(TorusShape, shape.torus)
+        break;
+    case OBJECT_DISC:
+        COMPARE(DiscShape, shape.disc)
+        break;
+    case OBJECT_TRIANGLE:
+        COMPARE(TriangleShape, shape.triangle)
+        break;
+    }
+    return NULL;
+}
+
+static const char *object_difference(const Object *a, const Object *b) {
+    OBJECT_MEMBERS(COMPARE)
+    const char *difference = transform_difference(&a->transform, &b->transform);
+    return difference ? difference : shape_difference(a, b);
+}
+
+static const char *sky_difference(const Scene *scene_a, const Scene *scene_b) {
+    const SkySphere *a = &scene_a->sky_sphere, *b = &scene_b->sky_sphere;
+    if (!scene_a->has_sky_sphere)
+        return NULL;
+    COMPARE(uint32_t, pigment_count)
+    COMPARE(Rgb, emission)
+    COMPARE_ALL(a->pigments, b->pigments, a->pigment_count)
+    return transform_difference(&a->transform, &b->transform);
+}
+
+const char *scene_difference(const Scene *a, const Scene *b) {
+    COMPARE(bool, has_sky_sphere)
+    COMPARE(uint32_t, light_count)
+    COMPARE(uint32_t, pigment_count)
+    COMPARE(uint32_t, texture_count)
+    COMPARE(uint32_t, interior_count)
+    COMPARE(uint32_t, object_count)
+    COMPARE(uint32_t, root_count)
+    COMPARE(uint32_t, requires_count)
+    COMPARE_ALL(a->roots, b->roots, a->root_count)
+    for (uint32_t i = 0; i < a->requires_count; i++)
+        if (strcmp(a->requires[i], b -> requires[i]) != 0)
+            return "requires";
+    const char *difference = settings_difference(&a->settings, &b->settings);
+    if (!difference)
+        difference = camera_difference(&a->camera, &b->camera);
+    if (!difference)
+        difference = sky_difference(a, b);
+    if (difference)
+        return difference;
+    COMPARE_EACH(lights, light_count, light_difference)
+    COMPARE_EACH(pigments, pigment_count, pigment_difference)
+    COMPARE_EACH(textures, texture_count, texture_difference)
+    COMPARE_EACH(interiors, interior_count, interior_difference)
+    COMPARE_EACH(objects, object_count, object_difference)
+    return NULL;
+}

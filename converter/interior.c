@@ -26,10 +26,7 @@ static bool parse_interior_number(Converter *cv, InteriorNode *node, int code) {
         next_token(cv);
         interior->fade_color = parse_color3(cv);
         return true;
-    case KW_refraction:
-        next_token(cv);
-        node->refraction = (float)parse_float(cv);
-        return true;
+    case KW_refraction: // without effect: the finish's value always replaces it
     case KW_dispersion_samples:
         next_token(cv);
         parse_float(cv);
@@ -60,7 +57,7 @@ static bool parse_interior_item(Converter *cv, InteriorNode *node) {
 }
 
 const InteriorNode *parse_interior_block(Converter *cv, const InteriorNode *base) {
-    InteriorNode node = {.interior = interior_default(), .refraction = 1};
+    InteriorNode node = {.interior = interior_default()};
     expect(cv, '{', "interior");
     const Value *value = accept_value(cv, VALUE_INTERIOR);
     if (value)

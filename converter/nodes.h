@@ -46,7 +46,8 @@ bool parse_move(Converter *cv, Move *move);
 // After the keyword `transform`: an identifier or a block.
 Transform parse_transform(Converter *cv);
 
-// ---- patterns: pattern.c, pattern_args.c, map.c, image.c -----------------------------------------
+// ---- patterns: pattern.c, pattern_args.c, map.c, image.c
+// -----------------------------------------
 
 // In which kind of block a pattern stands.
 typedef enum { USE_PIGMENT, USE_NORMAL, USE_TEXTURE, USE_DENSITY } PatternUse;
@@ -76,11 +77,11 @@ typedef struct {
 
 // What is known of a pattern keyword before its arguments.
 typedef struct {
-    int keyword;        // 0: no pattern, KW_color: one colour
-    PatternType type;   // PATTERN_MODELLED: parsed, but not modelled
-    bool triangle;      // sets triangle_wave
-    bool still;         // sets frequency 0
-    int list;           // takes up to so many items instead of a map
+    int keyword;      // 0: no pattern, KW_color: one colour
+    PatternType type; // PATTERN_MODELLED: parsed, but not modelled
+    bool triangle;    // sets triangle_wave
+    bool still;       // sets frequency 0
+    int list;         // takes up to so many items instead of a map
 } PatternInfo;
 
 // A pigment, a normal, a density, or the pattern of a texture.
@@ -97,8 +98,8 @@ typedef struct {
     Color color;        // one colour
     bool has_quick_color;
     Color quick_color;
-    float amount;               // normal: depth
-    const Loc *block_loc;       // normal: of its block
+    float amount;         // normal: depth
+    const Loc *block_loc; // normal: of its block
 } PatternNode;
 
 const PatternInfo *pattern_find(int keyword);
@@ -120,26 +121,27 @@ void parse_image_block(Converter *cv, const char *where);
 void parse_image(Converter *cv);
 void parse_image_options(Converter *cv);
 
-// ---- textures: texture.c, finish.c, interior.c ---------------------------------------------------
+// ---- textures: texture.c, finish.c, interior.c
+// ---------------------------------------------------
 
 typedef struct {
     Finish finish;
     float ior, caustics; // old places of the interior's values; < 0: not given
     float refraction;    // 1: none
+    const Loc *refraction_loc;
     const Gap *gaps;
 } FinishNode;
 
 typedef struct TextureNode {
-    PatternNode pattern;            // plain unless info->keyword is a pattern's
-    const PatternNode *pigment;     // plain
-    const PatternNode *normal;      // plain; NULL: none
-    const FinishNode *finish;       // plain
+    PatternNode pattern;             // plain unless info->keyword is a pattern's
+    const PatternNode *pigment;      // plain
+    const PatternNode *normal;       // plain; NULL: none
+    const FinishNode *finish;        // plain
     const struct TextureNode *below; // the next layer
 } TextureNode;
 
 typedef struct {
     Interior interior;
-    float refraction; // old light factor, 1: none
     const Gap *gaps;
 } InteriorNode;
 
@@ -173,7 +175,8 @@ const TextureNode *texture_layer(Converter *cv, const TextureNode *top, const Te
                                  const Token *token);
 const TextureNode *texture_moved(Converter *cv, const TextureNode *texture, Move *move);
 
-// ---- lights, camera, surroundings: light.c, camera.c, atmosphere.c, settings.c --------------------
+// ---- lights, camera, surroundings: light.c, camera.c, atmosphere.c, settings.c
+// --------------------
 
 typedef struct ObjectNode ObjectNode;
 
@@ -211,12 +214,14 @@ const SkySphereNode *parse_sky_sphere_block(Converter *cv);
 const AtmosphereNode *parse_fog_block(Converter *cv);
 const AtmosphereNode *parse_rainbow_block(Converter *cv);
 void parse_global_settings(Converter *cv);
-void parse_radiosity_block(Converter *cv);
+// A setting that is one number: if token, the next one, names it.
+bool parse_number_setting(Converter *cv, const Token *token);
 void parse_light_data(Converter *cv, ObjectNode *object);
 void parse_light_items(Converter *cv, ObjectNode *object);
 void light_move(LightNode *light, const Move *move);
 
-// ---- objects: object.c, shapes.c, patch.c, shapes_other.c, csg.c, modifiers.c, extent.c -----------
+// ---- objects: object.c, shapes.c, patch.c, shapes_other.c, csg.c, modifiers.c, extent.c
+// -----------
 
 // `object` carries the shape, the transform and the flags in the scene's own form; its texture,
 // interior and children are filled by emit.c.
@@ -262,12 +267,11 @@ void shape_move(ObjectNode *object, const Move *move);
 bool keyword_is_csg(int keyword);
 void parse_csg_data(Converter *cv, ObjectNode *object);
 
-// The axis-aligned box as POV-Ray keeps it (single precision), for min_extent and max_extent; false:
-// an object that is not modelled.
-bool object_extent(Converter *cv, const Value *object, Box *out);
+// The axis-aligned box as POV-Ray keeps it, in single precision; false: the object is not modelled.
 bool node_extent(const ObjectNode *object, Box *out);
 
-// ---- the whole: statement.c, emit.c --------------------------------------------------------------
+// ---- the whole: statement.c, emit.c
+// --------------------------------------------------------------
 
 typedef struct RootNode {
     struct RootNode *next;
@@ -281,15 +285,11 @@ struct Nodes {
     CameraNode *camera; // NULL: none yet
     RootNode *first, *last;
     const SkySphereNode *sky_sphere;
-    Settings settings; // version and gamma_mode are decided by emit.c
-    bool gamma_set;    // assumed_gamma was given
+    Settings settings; // version, noise and gamma are filled by emit.c
     const Gap *gaps;   // fog, radiosity, ...
 };
 
 // Creates cv->nodes with POV-Ray's defaults.
 void nodes_begin(Converter *cv);
-// What parse_scene_statements gathered as a Scene in cv->arena, complete and validated. Warns of
-// everything in it that is not modelled.
-Scene *emit_scene(Converter *cv);
 
 #endif

@@ -6,23 +6,21 @@
 
 // The first one counts.
 static void parse_assumed_gamma(Converter *cv, const Token *token) {
-    Nodes *nodes = cv->nodes;
-    Settings given = nodes->settings;
+    double gamma = 0;
+    bool is_srgb = accept(cv, KW_srgb);
     Loc loc = token_loc(cv, token);
-    if (accept(cv, KW_srgb)) {
-        given.gamma_mode = GAMMA_SRGB;
-    } else {
-        given.gamma_mode = GAMMA_POWER;
-        given.assumed_gamma = (float)parse_float(cv);
-        if (!(given.assumed_gamma > 0.0F) || !isfinite(given.assumed_gamma))
+    if (!is_srgb) {
+        gamma = parse_float(cv);
+        if (!(gamma > 0.0) || !isfinite((float)gamma))
             die_at(&loc, "assumed_gamma must be greater than 0");
     }
-    if (nodes->gamma_set) {
+    if (cv->gamma_set) {
         warn_at(&loc, "assumed_gamma was given before: this one is ignored");
         return;
     }
-    nodes->settings = given;
-    nodes->gamma_set = true;
+    cv->gamma = gamma;
+    cv->gamma_is_srgb = is_srgb;
+    cv->gamma_set = true;
 }
 
 static int parse_limited(Converter *cv, const Token *token, int low, int high) {
@@ -90,7 +88,7 @@ static bool parse_radiosity_item(Converter *cv) {
     }
 }
 
-void parse_radiosity_block(Converter *cv) {
+static void parse_radiosity_block(Converter *cv) {
     expect(cv, '{', "radiosity");
     while (parse_radiosity_item(cv)) {
     }
@@ -151,7 +149,7 @@ static void parse_subsurface_settings(Converter *cv) {
     expect(cv, '}', "subsurface");
 }
 
-static bool parse_number_setting(Converter *cv, const Token *token) {
+bool parse_number_setting(Converter *cv, const Token *token) {
     Settings *settings = &cv->nodes->settings;
     switch (token->code) {
     case KW_max_trace_level:

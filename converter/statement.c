@@ -14,12 +14,12 @@ static Value node_value(ValueType type, const void *node) {
 static const TextureNode *parse_layers(Converter *cv) {
     const TextureNode *texture = parse_texture_block(cv);
     for (;;) {
-        hold_directives(cv);
+        bool held = hold_directives(cv);
         const Token *token = peek_token(cv);
         bool more = token->code == KW_texture;
         if (more)
             next_token(cv);
-        release_directives(cv);
+        restore_directives(cv, held);
         if (!more)
             return texture;
         texture = texture_layer(cv, parse_texture_block(cv), texture, token);
@@ -236,24 +236,20 @@ static bool parse_world(Converter *cv) {
         parse_atmosphere(cv, token);
         return true;
     case KW_max_trace_level:
-        next_token(cv);
-        cv->nodes->settings.max_trace_level = (int)parse_float(cv);
-        return true;
     case KW_max_intersections:
-        next_token(cv);
-        parse_float(cv);
-        return true;
+        return parse_number_setting(cv, token);
     default:
         return false;
     }
 }
 
 void parse_scene_statements(Converter *cv) {
+    nodes_begin(cv);
     while (!next_is(cv, TOK_EOF)) {
         ObjectNode *object = parse_object(cv);
         if (object)
             add_root(cv, object);
-        else if (!parse_world(cv))
+        else if (!parse_world(cv) && !accept_old_directive(cv))
             die_expected(cv, "an object, a directive or a statement of the top level");
     }
 }

@@ -1,0 +1,314 @@
+// SPDX-License-Identifier: MIT
+// From the nodes of the finished scene to the Scene: what children inherit is worked out here
+// (facts: sdl 4.5, rendering 4.6), lights leave their unions, and what is used but not modelled is
+// said, once a place.
+#include "converter/emit.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+// ---- messages
+// -----------------------------------------------------------------------------------------
+
+static bool same_place(const Loc *a, const Loc *b) {
+    if (a->line != b->line || a->column != b->column)
+        return false;
+    return a->file == b->file || (a->file && b->file && strcmp(a->file, b->file) == 0);
+}
+
+void emit_gap(Emitter *e, const Loc *loc, const char *text) {
+    Said **bucket = &e->said[((unsigned)loc->line * 31u + (unsigned)loc->column) % SAID_BUCKETS];
+    for (const Said *said = *bucket; said; said = said->next)
+        if (same_place(said->loc, loc) && strcmp(said->text, text) == 0)
+            return;
+    Said *said = ARENA_NEW(e->cv->arena, Said);
+    *said = (Said){.next = *bucket, .loc = loc, .text = text};
+    *bucket = said;
+    warn_at(loc, "%s", text);
+}
+
+void emit_gaps(Emitter *e, const Gap *gaps) {
+    if (!gaps)
+        return;
+    emit_gaps(e, gaps->next);
+    emit_gap(e, gaps->loc, gaps->text);
+}
+
+// ---- interiors
+// ------------------------------------------------------------------------------------------
+
+// The interior that the children of an object without one of their own share. It is stored when
+// the first child needs it.
+typedef struct {
+    const InteriorNode *node; // NULL: air
+    const TextureNode *texture;
+    uint32_t index;
+} SharedInterior;
+
+static uint32_t store_interior(Emitter *e, const InteriorNode *node) {
+    Interior interior = node ? node->interior : interior_default();
+    if (node)
+        emit_gaps(e, node->gaps);
+    array_push(&e->interiors, interior);
+    return (uint32_t)(e->interiors.count - 1);
+}
+
+// Before 3.1 ior and caustics stood in the finish. A plain top layer still passes them on.
+static bool finish_has_interior(const TextureNode *texture) {
+    return texture && texture_is_plain(texture) &&
+           (texture->finish->ior >= 0 || texture->finish->caustics >= 0);
+}
+
+static void take_from_finish(Emitter *e, uint32_t index, const TextureNode *texture) {
+    if (index == NO_INDEX || !finish_has_interior(texture))
+        return;
+    Interior *interior = &e->interiors.items[index];
+    if (texture->finish->ior >= 0)
+        interior->ior = texture->finish->ior;
+    if (texture->finish->caustics >= 0)
+        interior->caustics = texture->finish->caustics;
+}
+
+static uint32_t use_shared(Emitter *e, SharedInterior *shared) {
+    if (shared->index == NO_INDEX) {
+        shared->index = store_interior(e, shared->node);
+        take_from_finish(e, shared->index, shared->texture);
+    }
+    return shared->index;
+}
+
+// ---- objects
+// ---------------------------------------------------------------------------------------------
+
+typedef struct {
+    const TextureNode *texture, *interior_texture;
+    SharedInterior *interior; // NULL at top level
+    bool uv_mapping, no_shadow, no_image, no_reflection;
+    bool hollow, double_set, double_illuminate;
+} Inherited;
+
+static uint32_t emit_object(Emitter *e, const ObjectNode *node, const Inherited *from);
+
+static uint32_t store_object(Emitter *e, const Object *object) {
+    array_push(&e->objects, *object);
+    return (uint32_t)(e->objects.count - 1);
+}
+
+// What the object is to its children, or, for a leaf, what it finally has.
+static Inherited inherit(const ObjectNode *node, const Inherited *from) {
+    const Object *object = &node->object;
+    Inherited own = *from;
+    own.texture = node->texture ? node->texture : from->texture;
+    own.interior_texture = node->interior_texture ? node->interior_texture : from->interior_texture;
+    bool takes_uv = !node->texture || !node->interior_texture;
+    own.uv_mapping = object->uv_mapping || (from->uv_mapping && takes_uv);
+    own.no_shadow |= object->no_shadow;
+    own.no_image |= object->no_image;
+    own.no_reflection |= object->no_reflection;
+    own.hollow = node->hollow_set ? object->hollow : from->hollow;
+    if (!from->double_set && node->double_set) {
+        own.double_set = true;
+        own.double_illuminate = object->double_illuminate;
+    }
+    return own;
+}
+
+static void apply_flags(Object *object, const Inherited *own) {
+    object->uv_mapping = own->uv_mapping;
+    object->no_shadow = own->no_shadow;
+    object->no_image = own->no_image;
+    object->no_reflection = own->no_reflection;
+    object->hollow = own->hollow;
+    object->double_illuminate = own->double_illuminate;
+}
+
+static uint32_t emit_light(Emitter *e, const ObjectNode *node, const Inherited *from) {
+    emit_gaps(e, node->light->gaps);
+    array_push(&e->lights, node->light->light);
+    if (!node->light->looks_like)
+        return NO_INDEX;
+    return emit_object(e, node->light->looks_like, from);
+}
+
+static uint32_t emit_union(Emitter *e, const ObjectNode *node, Inherited *own) {
+    SharedInterior shared = {.node = node->interior, .texture = own->texture, .index = NO_INDEX};
+    if (node->interior || !own->interior)
+        own->interior = &shared;
+    uint32_t count = 0;
+    for (const ObjectNode *child = node->first; child; child = child->next)
+        count++;
+    uint32_t *items = ARENA_ARRAY(e->cv->arena, uint32_t, count);
+    count = 0;
+    for (const ObjectNode *child = node->first; child; child = child->next) {
+        uint32_t index = emit_object(e, child, own);
+        if (index != NO_INDEX)
+            items[count++] = index;
+    }
+    if (count == 0)
+        return NO_INDEX;
+    Object object = node->object;
+    apply_flags(&object, own);
+    object.shape.children.items = items;
+    object.shape.children.count = count;
+    return store_object(e, &object);
+}
+
+static uint32_t emit_leaf(Emitter *e, const ObjectNode *node, const Inherited *own) {
+    Object object = node->object;
+    apply_flags(&object, own);
+    object.texture = emit_texture(e, own->texture);
+    if (own->interior_texture)
+        object.interior_texture = emit_texture(e, own->interior_texture);
+    if (node->interior)
+        object.interior = store_interior(e, node->interior);
+    else if (own->interior)
+        object.interior = use_shared(e, own->interior);
+    else if (finish_has_interior(own->texture))
+        object.interior = store_interior(e, NULL);
+    take_from_finish(e, object.interior, own->texture);
+    return store_object(e, &object);
+}
+
+static bool list_extent(const ObjectNode *list, Box *out) {
+    *out = (Box){vec3(-1e10, -1e10, -1e10), vec3(1e10, 1e10, 1e10)};
+    for (; list; list = list->next) {
+        Box box;
+        if (!node_extent(list, &box))
+            return false;
+        out->low = vec_max(out->low, box.low);
+        out->high = vec_min(out->high, box.high);
+    }
+    return true;
+}
+
+static bool box_holds(const Box *outer, const Box *inner) {
+    return outer->low.x <= inner->low.x && outer->low.y <= inner->low.y &&
+           outer->low.z <= inner->low.z && outer->high.x >= inner->high.x &&
+           outer->high.y >= inner->high.y && outer->high.z >= inner->high.z;
+}
+
+static bool cuts_box(const ObjectNode *list, const Box *box) {
+    Box limit;
+    return list && (!list_extent(list, &limit) || !box_holds(&limit, box));
+}
+
+// POV-Ray ignores clipped_by on a patch, but both it and bounded_by can shrink the patch's box, and
+// rays that miss the box miss the patch (facts: rendering 7.7). Elsewhere a bound is a hint.
+static void check_bodies(Emitter *e, const ObjectNode *node) {
+    if (node->object.type != OBJECT_PATCH) {
+        if (node->clips)
+            emit_gap(e, node->clip_loc, "clipped_by is not modelled: the object is shown whole");
+        return;
+    }
+    Box box = box_empty();
+    for (int i = 0; i < 16; i++)
+        box = box_extend(box, node->object.shape.patch.points[i]);
+    if (cuts_box(node->bounds, &box))
+        emit_gap(e, node->bound_loc,
+                 "bounded_by may cut this patch in POV-Ray: here it is shown whole");
+    if (cuts_box(node->clips, &box))
+        emit_gap(e, node->clip_loc,
+                 "clipped_by may cut this patch at a box in POV-Ray: here it is shown whole");
+}
+
+static uint32_t emit_object(Emitter *e, const ObjectNode *node, const Inherited *from) {
+    if (!node->modelled) {
+        emit_gap(e, node->loc,
+                 arena_printf(e->cv->arena,
+                              "'%s' is not modelled: the object is missing in the picture",
+                              keyword_name(node->keyword)));
+        return NO_INDEX;
+    }
+    emit_gaps(e, node->gaps);
+    Inherited own = inherit(node, from);
+    if (node->light)
+        return emit_light(e, node, &own);
+    check_bodies(e, node);
+    if (node->object.type == OBJECT_UNION || node->object.type == OBJECT_MERGE)
+        return emit_union(e, node, &own);
+    return emit_leaf(e, node, &own);
+}
+
+static void emit_roots(Emitter *e) {
+    for (const RootNode *root = e->cv->nodes->first; root; root = root->next) {
+        Inherited from = {.texture = root->default_texture};
+        uint32_t index = emit_object(e, root->object, &from);
+        if (index != NO_INDEX)
+            array_push(&e->roots, index);
+    }
+}
+
+// ---- the rest
+// ----------------------------------------------------------------------------------------------
+
+static void emit_settings(Emitter *e) {
+    const Converter *cv = e->cv;
+    Settings *settings = &e->scene->settings;
+    *settings = cv->nodes->settings;
+    settings->version = effective_version(cv);
+    settings->noise_generator = cv->noise_generator;
+    if (cv->gamma_set) {
+        settings->gamma_mode = cv->gamma_is_srgb ? GAMMA_SRGB : GAMMA_POWER;
+        settings->assumed_gamma = cv->gamma_is_srgb ? 1.0F : (float)cv->gamma;
+    } else {
+        settings->gamma_mode = settings->version >= 370 ? GAMMA_POWER : GAMMA_NONE;
+        settings->assumed_gamma = 1.0F;
+    }
+}
+
+static void emit_camera(Emitter *e) {
+    const Nodes *nodes = e->cv->nodes;
+    const CameraNode *camera = nodes->camera ? nodes->camera : &nodes->default_camera;
+    emit_gaps(e, camera->gaps);
+    e->scene->camera = camera->camera;
+}
+
+static void emit_sky(Emitter *e) {
+    const SkySphereNode *node = e->cv->nodes->sky_sphere;
+    SkySphere *sky = &e->scene->sky_sphere;
+    if (!node)
+        return;
+    e->scene->has_sky_sphere = true;
+    sky->emission = node->emission;
+    sky->transform = node->transform;
+    for (const PigmentList *list = node->top; list; list = list->next)
+        sky->pigment_count++;
+    sky->pigments = ARENA_ARRAY(e->cv->arena, uint32_t, sky->pigment_count);
+    uint32_t i = sky->pigment_count;
+    for (const PigmentList *list = node->top; list; list = list->next)
+        sky->pigments[--i] = emit_pigment(e, list->pigment);
+}
+
+// Copies a pool into the arena and drops it.
+#define KEEP(e, scene, pool, count_field)                                                          \
+    ((scene)->pool =                                                                               \
+         arena_copy((e)->cv->arena, (e)->pool.items, (e)->pool.count * sizeof *(e)->pool.items),   \
+     (scene)->count_field = (uint32_t)(e)->pool.count, array_free(&(e)->pool))
+
+static void keep_pools(Emitter *e) {
+    Scene *scene = e->scene;
+    KEEP(e, scene, objects, object_count);
+    KEEP(e, scene, roots, root_count);
+    KEEP(e, scene, lights, light_count);
+    KEEP(e, scene, pigments, pigment_count);
+    KEEP(e, scene, textures, texture_count);
+    KEEP(e, scene, interiors, interior_count);
+}
+
+Scene *emit_scene(Converter *cv) {
+    Emitter *e = ARENA_NEW(cv->arena, Emitter);
+    e->cv = cv;
+    e->scene = ARENA_NEW(cv->arena, Scene);
+    emit_settings(e);
+    emit_camera(e);
+    emit_gaps(e, cv->nodes->gaps);
+    emit_roots(e);
+    emit_sky(e);
+    keep_pools(e);
+    if (e->scene->root_count == 0)
+        warn("'%s' shows no object", cv->options->input);
+    scene_collect_requires(e->scene, cv->arena);
+    scene_validate(e->scene, cv->options->input);
+    return e->scene;
+}

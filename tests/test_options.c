@@ -226,7 +226,7 @@ static void wrong_words(void **state) {
         {"x.png", "'x.png'", "neither"},
         {"--", "'--'", "nothing may follow"},
         {"+", "'+'", "neither"},
-        {"Grayscale_Output=on +FT", "'Grayscale_Output'", "PNG"},
+        {"+FT Grayscale_Output=on", "'Grayscale_Output'", "PNG"},
     };
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++)
         refuses(PROGRAM_QIRENDER, arena, wrong[i].line, wrong[i].named, wrong[i].hint);

@@ -42,10 +42,46 @@ ImageWriteOptions image_write_options_default(void) {
     return (ImageWriteOptions){.format = IMAGE_PNG, .bits = 8, .gamma = 2.2, .srgb = true};
 }
 
+unsigned image_stored(float value, int bits, int stored) {
+    float clipped = value > 0.0f ? (value < 1.0f ? value : 1.0f) : 0.0f;
+    unsigned k = (unsigned)lroundf(clipped * (float)((1u << bits) - 1u));
+    if (bits >= stored)
+        return k >> (bits - stored);
+    unsigned out = 0;
+    for (int place = stored - bits; place > -bits; place -= bits)
+        out |= place >= 0 ? k << place : k >> -place;
+    return out & ((1u << stored) - 1u);
+}
+
+// Portable pixmap, or greymap: a line of text, then bytes, the high one first.
+static bool write_ppm(const Image *image, const ImageWriteOptions *options, FILE *out) {
+    int stored = options->bits > 8 ? 16 : 8, shown = image->channels >= 3 ? 3 : 1;
+    fprintf(out, "P%c\n%d %d\n%d\n", shown == 3 ? '6' : '5', image->width, image->height,
+            stored == 16 ? 65535 : 255);
+    size_t pixels = (size_t)image->width * (size_t)image->height;
+    const float *in = image->pixels;
+    for (size_t i = 0; i < pixels; i++, in += image->channels) {
+        for (int c = 0; c < shown; c++) {
+            unsigned value = image_stored(in[c], options->bits, stored);
+            if (stored == 16)
+                putc((int)(value >> 8), out);
+            putc((int)(value & 255u), out);
+        }
+    }
+    return !ferror(out);
+}
+
+static bool encode(const Image *image, const ImageWriteOptions *options, FILE *out,
+                   char why[OIIO_WHY]) {
+    why[0] = '\0';
+    return options->format == IMAGE_PPM ? write_ppm(image, options, out)
+                                        : oiio_encode(image, options, out, why);
+}
+
 void image_write(const char *path, const Image *image, const ImageWriteOptions *options) {
     char why[OIIO_WHY];
     if (strcmp(path, "-") == 0) {
-        bool ok = oiio_encode(image, options, stdout, why);
+        bool ok = encode(image, options, stdout, why);
         if (!ok || fflush(stdout) != 0)
             die("cannot write the picture to standard output: %s",
                 !ok && why[0] ? why : strerror(errno));
@@ -53,7 +89,7 @@ void image_write(const char *path, const Image *image, const ImageWriteOptions *
     }
     OutputFile *out = file_begin(path);
     errno = 0;
-    if (!oiio_encode(image, options, file_stream(out), why)) {
+    if (!encode(image, options, file_stream(out), why)) {
         int error = errno;
         file_abandon(out);
         die("cannot write '%s': %s", path, why[0] ? why : strerror(error));

@@ -17,6 +17,10 @@ extern "C" {
 
 enum { OIIO_WHY = 256 };
 
+// The stored value, in `stored` bits, of k / (2^bits - 1): its bits from the top, repeated
+// downwards. Clipped to 0..1; NaN is 0. (image.c)
+unsigned image_stored(float value, int bits, int stored) OIIO_BORDER;
+
 // Encodes the picture in memory and writes the bytes to out. False also when out does not take
 // them; then errno says why and `why` is empty.
 bool oiio_encode(const Image *image, const ImageWriteOptions *options, FILE *out,

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: MIT
+// Every primitive but the patch: all hits of a ray, the normal and the texture coordinates at one
+// of them, the inside test, a bounding box. One file per primitive; each follows what POV-Ray
+// shades and cuts (facts: rendering 0.2, 8), which is not always what mathematics would have.
+//
+// A Shape is prepared once from an Object and is read-only then. Most primitives live in a local
+// space: rays are taken there by the inverse transform, and hits come back as depths of the world's
+// ray, since t does not change under an affine map unless the direction is made unit again.
+#ifndef SHAPE_SHAPE_H
+#define SHAPE_SHAPE_H
+
+#include "model/scene.h"
+
+// First member: nothing to hit and no inside (no radius, no length, a flattening transform).
+typedef enum {
+    SHAPE_NONE,
+    SHAPE_PLANE,
+    SHAPE_SPHERE,
+    SHAPE_BOX,
+    SHAPE_CYLINDER,
+    SHAPE_CONE,
+    SHAPE_TORUS,
+    SHAPE_DISC,
+    SHAPE_TRIANGLE,
+} ShapeKind;
+
+typedef struct {
+    Vec3 center;
+    double radius, radius2;
+} SphereData;
+
+// Unit frame of a cylinder: x^2 + y^2 = 1, 0 <= z <= 1; of a cone: x^2 + y^2 = z^2, start <= z
+// <= 1.
+typedef struct {
+    double start;
+    bool open;
+} ConeData;
+
+typedef struct {
+    double major, minor;
+} TorusData;
+
+typedef struct {
+    Vec3 center, normal;
+    double radius2, hole2;
+} DiscData;
+
+// Corners with the orientation of their projection along `axis` made positive.
+typedef struct {
+    Vec3 p[3], normal;
+    double distance; // normal . p
+    int axis;        // the largest component of the normal
+} TriangleData;
+
+typedef struct {
+    ShapeKind kind;
+    bool inverse;               // flips the normal and the inside; never set for planes
+    const Transform *transform; // local to world; NULL: local space is the world
+    union {
+        PlaneShape plane;
+        SphereData sphere;
+        BoxShape box;
+        ConeData cone; // also the cylinder
+        TorusData torus;
+        DiscData disc;
+        TriangleData triangle;
+    } as;
+} Shape;
+
+enum { SHAPE_MAX_HITS = 4 };
+
+// part: which piece of the surface was hit, in the primitive's own numbering (a side of the box, a
+// cap of the cone); to be handed back to shape_normal and shape_uv.
+typedef struct {
+    double t;
+    int part;
+} ShapeHit;
+
+// Hits farther than this do not exist for most primitives (POV-Ray's limit; in local units for
+// sphere, cone and cylinder under a transform).
+#define SHAPE_FARTHEST 1e7
+// POV-Ray's nearly zero: directions along a surface, and slack of inside tests.
+#define SHAPE_EPSILON 1e-10
+
+// object: any type from OBJECT_PLANE on. What must be kept beside the object goes to arena; the
+// object must outlive the shape.
+Shape shape_prepare(const Object *object, Arena *arena);
+
+// All hits that lie beyond the primitive's own least depth, in POV-Ray's order: of several at the
+// same depth the last one counts. ray->dir must be of unit length. Returns how many; none is NaN.
+int shape_hits(const Shape *shape, const Ray *ray, ShapeHit hits[SHAPE_MAX_HITS]);
+// Unit normal at p, the point of a hit; points out of the inside, `inverse` applied.
+Vec3 shape_normal(const Shape *shape, Vec3 p, int part);
+// Texture coordinates at p. Sphere, box and torus have a mapping of their own; for the others
+// POV-Ray takes the world's x and y.
+Vec2 shape_uv(const Shape *shape, Vec3 p, int part);
+bool shape_inside(const Shape *shape, Vec3 p); // `inverse` applied
+// False for triangles and SHAPE_NONE: no point is ever inside.
+bool shape_has_inside(const Shape *shape);
+// Holds the surface (infinite in the directions where that is). The inside too, unless it is
+// unbounded: then shape_inside_bounded is false.
+Box shape_bounds(const Shape *shape);
+bool shape_inside_bounded(const Shape *shape);
+
+// ---- for the primitives' own files --------------------------------------------------------------
+
+// A ray in local space with its direction made unit; depths there are scale x those of the world.
+typedef struct {
+    Ray ray;
+    double scale;
+} LocalRay;
+
+// False when the direction vanishes or overflows there.
+bool shape_local_ray(const Transform *transform, const Ray *ray, LocalRay *local);
+Vec3 shape_local_point(const Transform *transform, Vec3 p);
+// From local to world, unit; fallback (unit, world) where it has no direction.
+Vec3 shape_world_normal(const Transform *transform, Vec3 normal, Vec3 fallback);
+// The box of center + { a x + b y + c z : |(x, y, z)| <= 1 }, an ellipsoid (an ellipse with c = 0).
+Box shape_ellipsoid_box(Vec3 center, Vec3 a, Vec3 b, Vec3 c);
+// p mapped from local to world.
+Vec3 shape_world_point(const Transform *transform, Vec3 p);
+Vec3 shape_world_dir(const Transform *transform, Vec3 d);
+
+int plane_hits(const Shape *shape, const Ray *ray, ShapeHit hits[SHAPE_MAX_HITS]);
+bool plane_inside(const Shape *shape, Vec3 p);
+
+void sphere_prepare(Shape *shape, const SphereShape *sphere);
+int sphere_hits(const Shape *shape, const Ray *ray, ShapeHit hits[SHAPE_MAX_HITS]);
+Vec3 sphere_normal(const Shape *shape, Vec3 p);
+Vec2 sphere_uv(const Shape *shape, Vec3 p);
+bool sphere_inside(const Shape *shape, Vec3 p);
+Box sphere_bounds(const Shape *shape);
+
+void box_prepare(Shape *shape, const BoxShape *box);
+int box_hits(const Shape *shape, const Ray *ray, ShapeHit hits[SHAPE_MAX_HITS]);
+Vec3 box_normal(const Shape *shape, int part);
+Vec2 box_uv(const Shape *shape, Vec3 p, int part);
+bool box_inside(const Shape *shape, Vec3 p);
+Box box_bounds(const Shape *shape);
+
+void cone_prepare(Shape *shape, const ConeShape *cone, Arena *arena);
+int cone_hits(const Shape *shape, const Ray *ray, ShapeHit hits[SHAPE_MAX_HITS]);
+Vec3 cone_normal(const Shape *shape, Vec3 p, int part);
+bool cone_inside(const Shape *shape, Vec3 p);
+Box cone_bounds(const Shape *shape);
+
+void torus_prepare(Shape *shape, const TorusShape *torus);
+int torus_hits(const Shape *shape, const Ray *ray, ShapeHit hits[SHAPE_MAX_HITS]);
+Vec3 torus_normal(const Shape *shape, Vec3 p);
+Vec2 torus_uv(const Shape *shape, Vec3 p);
+bool torus_inside(const Shape *shape, Vec3 p);
+Box torus_bounds(const Shape *shape);
+
+void disc_prepare(Shape *shape, const DiscShape *disc);
+int disc_hits(const Shape *shape, const Ray *ray, ShapeHit hits[SHAPE_MAX_HITS]);
+Vec3 disc_normal(const Shape *shape);
+bool disc_inside(const Shape *shape, Vec3 p);
+Box disc_bounds(const Shape *shape);
+
+void triangle_prepare(Shape *shape, const TriangleShape *triangle);
+int triangle_hits(const Shape *shape, const Ray *ray, ShapeHit hits[SHAPE_MAX_HITS]);
+Box triangle_bounds(const Shape *shape);
+
+#endif

@@ -34,7 +34,7 @@ static void parse_reflection_block(Converter *cv, Finish *finish) {
         } else if (accept(cv, KW_falloff)) {
             finish->reflection_falloff = number(cv);
         } else if (accept(cv, KW_exponent)) {
-            finish->reflection_exponent = number(cv);
+            finish->reflection_exponent = parse_float(cv);
         } else if (accept(cv, KW_metallic)) {
             finish->reflection_metallic = optional_number(cv, 1);
         } else {
@@ -102,6 +102,11 @@ static bool parse_strength(Converter *cv, Finish *finish, Albedo *albedo, int co
 
 static bool parse_number(Converter *cv, FinishNode *node, int code) {
     Finish *finish = &node->finish;
+    if (code == KW_reflection_exponent) {
+        next_token(cv);
+        finish->reflection_exponent = parse_float(cv);
+        return true;
+    }
     float *to = NULL;
     switch (code) {
     case KW_brilliance:
@@ -115,9 +120,6 @@ static bool parse_number(Converter *cv, FinishNode *node, int code) {
         break;
     case KW_crand:
         to = &finish->crand;
-        break;
-    case KW_reflection_exponent:
-        to = &finish->reflection_exponent;
         break;
     case KW_ior:
         to = &node->ior;

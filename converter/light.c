@@ -113,11 +113,11 @@ static bool parse_number(Converter *cv, LightNode *node, const Token *token) {
         return true;
     case KW_fade_distance:
         next_token(cv);
-        node->light.fade_distance = (float)parse_float(cv);
+        node->light.fade_distance = parse_float(cv);
         return true;
     case KW_fade_power:
         next_token(cv);
-        node->light.fade_power = (float)parse_float(cv);
+        node->light.fade_power = parse_float(cv);
         return true;
     case KW_adaptive:
         next_token(cv);

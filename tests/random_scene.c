@@ -98,7 +98,8 @@ static Transform random_transform(Rng *rng) {
 #define LIGHT_MEMBERS(X)                                                                           \
     X(LightType, type)                                                                             \
     X(Vec3, location)                                                                              \
-    X(Vec3, point_at) X(Rgb, color) X(bool, shadowless) X(float, fade_distance) X(float, fade_power)
+    X(Vec3, point_at)                                                                              \
+    X(Rgb, color) X(bool, shadowless) X(double, fade_distance) X(double, fade_power)
 #define PATTERN_MEMBERS(X)                                                                         \
     X(PatternType, pattern.type)                                                                   \
     X(WaveType, pattern.wave)                                                                      \
@@ -119,10 +120,10 @@ static Transform random_transform(Rng *rng) {
     X(float, roughness)                                                                            \
     X(float, metallic)                                                                             \
     X(float, reflection_falloff)                                                                   \
-    X(float, reflection_exponent)                                                                  \
     X(float, reflection_metallic) X(float, irid) X(float, irid_thickness) X(float, irid_turbulence)
 #define FINISH_MEMBERS(X)                                                                          \
     FINISH_FLOATS(X)                                                                               \
+    X(double, reflection_exponent)                                                                 \
     X(Rgb, ambient)                                                                                \
     X(Rgb, emission)                                                                               \
     X(Rgb, reflection_min)                                                                         \

@@ -30,6 +30,7 @@ _Static_assert(sizeof(ObjectType) == sizeof(int) && sizeof(WaveType) == sizeof(i
     { .name = text, .type = FIELD_COLOR, AT(Struct, member) }
 #define DOUBLE_AS(kept, Struct, member, text)                                                      \
     { .name = text, .type = FIELD_DOUBLE, .presence = kept, AT(Struct, member) }
+#define DOUBLE(Struct, member, text) DOUBLE_AS(FIELD_PLAIN, Struct, member, text)
 #define VEC3_AS(kept, Struct, member, text)                                                        \
     { .name = text, .type = FIELD_DOUBLES, .presence = kept, AT(Struct, member), .columns = 3 }
 #define VEC3(Struct, member, text) VEC3_AS(FIELD_PLAIN, Struct, member, text)
@@ -94,8 +95,8 @@ static const Field LIGHT_FIELDS[] = {
      AT(Light, color),
      .columns = 3},
     BOOL(Light, shadowless, "shadowless"),
-    FLOAT(Light, fade_distance, "fade_distance"),
-    FLOAT(Light, fade_power, "fade_power"),
+    DOUBLE(Light, fade_distance, "fade_distance"),
+    DOUBLE(Light, fade_power, "fade_power"),
     END,
 };
 static void default_light(void *out) { *(Light *)out = (Light){.point_at = {0, 0, 1}}; }
@@ -174,7 +175,7 @@ static const Field FINISH_FIELDS[] = {
     RGB(Finish, reflection_min, "reflection_min"),
     RGB(Finish, reflection_max, "reflection_max"),
     FLOAT(Finish, reflection_falloff, "reflection_falloff"),
-    FLOAT(Finish, reflection_exponent, "reflection_exponent"),
+    DOUBLE(Finish, reflection_exponent, "reflection_exponent"),
     FLOAT(Finish, reflection_metallic, "reflection_metallic"),
     BOOL(Finish, reflection_fresnel, "reflection_fresnel"),
     BOOL(Finish, conserve_energy, "conserve_energy"),

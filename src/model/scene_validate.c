@@ -163,8 +163,8 @@ static void check_light(const Check *c, const FieldPath *path, const Light *ligh
     check_vec3(c, path, "location", light->location);
     check_vec3(c, path, "point_at", light->point_at);
     check_rgb(c, path, "color", light->color);
-    check_float(c, path, "fade_distance", light->fade_distance);
-    check_float(c, path, "fade_power", light->fade_power);
+    check_numbers(c, path, "fade_distance", &light->fade_distance, 1);
+    check_numbers(c, path, "fade_power", &light->fade_power, 1);
     if (light->type == LIGHT_PARALLEL &&
         !(vec_length(vec_sub(light->point_at, light->location)) > 0)) {
         const FieldPath point_at = path_field(path, "point_at");
@@ -224,9 +224,9 @@ static void check_pigment(Check *c, const FieldPath *path, uint32_t index, int d
     c->pigment_met[index] = 2;
 }
 
-static void check_not_zero(const Check *c, const FieldPath *up, const char *name, float value) {
+static void check_not_zero(const Check *c, const FieldPath *up, const char *name, double value) {
     const FieldPath path = path_field(up, name);
-    check_float(c, up, name, value);
+    check_numbers(c, up, name, &value, 1);
     if (value == 0)
         refuse(c, &path, "0 has no reciprocal");
 }

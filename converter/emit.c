@@ -282,9 +282,13 @@ static void emit_sky(Emitter *e) {
 
 // Copies a pool into the arena and drops it.
 #define KEEP(e, scene, pool, count_field)                                                          \
-    ((scene)->pool =                                                                               \
-         arena_copy((e)->cv->arena, (e)->pool.items, (e)->pool.count * sizeof *(e)->pool.items),   \
-     (scene)->count_field = (uint32_t)(e)->pool.count, array_free(&(e)->pool))
+    do {                                                                                           \
+        size_t size = (e)->pool.count * sizeof *(e)->pool.items;                                   \
+        if (size)                                                                                  \
+            (scene)->pool = arena_copy((e)->cv->arena, (e)->pool.items, size);                     \
+        (scene)->count_field = (uint32_t)(e)->pool.count;                                          \
+        array_free(&(e)->pool);                                                                    \
+    } while (0)
 
 static void keep_pools(Emitter *e) {
     Scene *scene = e->scene;

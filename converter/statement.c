@@ -30,6 +30,13 @@ static Value parse_texture_part(Converter *cv, int code) {
     const TextureNode *standard = cv->nodes->default_texture;
     if (code == KW_pigment)
         return node_value(VALUE_PIGMENT, parse_pigment_block(cv, standard->pigment));
+    if (code == KW_pattern) { // the body of a function: a pattern without colours
+        PatternNode node = pattern_node_default();
+        expect(cv, '{', "pattern");
+        parse_pattern(cv, USE_PIGMENT, &node);
+        expect(cv, '}', "pattern");
+        return node_value(VALUE_PIGMENT, arena_copy(cv->arena, &node, sizeof node));
+    }
     if (code == KW_normal)
         return node_value(VALUE_NORMAL, parse_normal_block(cv, standard->normal));
     return node_value(VALUE_FINISH, parse_finish_block(cv, standard->finish));
@@ -46,6 +53,7 @@ static bool parse_keyword_value(Converter *cv, int code, Value *out) {
     }
     switch (code) {
     case KW_pigment:
+    case KW_pattern:
     case KW_normal:
     case KW_finish:
         next_token(cv);

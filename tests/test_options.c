@@ -119,7 +119,7 @@ static void switches_and_keywords_agree(void **state) {
         if (a.output)
             assert_string_equal(a.output, b.output);
         a.input = b.input = a.output = b.output = NULL;
-        a.shared = b.shared = a.own = b.own = a.rest = b.rest = NULL;
+        a.shared = b.shared = a.own = b.own = NULL;
         if (memcmp(&a, &b, sizeof a) != 0)
             fail_msg("%s | %s", pairs[i][0], pairs[i][1]);
     }
@@ -248,20 +248,20 @@ static void words_of_the_other_programs(void **state) {
     assert_string_equal(o.output, "dir");
     refuses(PROGRAM_QICOMPARE, arena, "a.png b.png c.png", "'c.png'", "third");
 
-    // Who gets which words: both, qirender alone, and what stands behind the dashes.
+    // Who gets which words: both renderers, or qirender alone.
     assert_true(parse(PROGRAM_QICOMPARE,
                       "a.pov +W64 Height=48 inc/ --warn 0.1 --method facets -o out +Oout2 +Ib.pov "
                       "-- +A0.3 --tolerance 1e-6",
                       arena, &o));
-    assert_int_equal(o.shared_count, 3);
+    assert_int_equal(o.shared_count, 4);
     assert_string_equal(o.shared[0], "+W64");
     assert_string_equal(o.shared[1], "Height=48");
     assert_string_equal(o.shared[2], "inc/");
-    assert_int_equal(o.own_count, 2);
+    assert_string_equal(o.shared[3], "+A0.3");
+    assert_int_equal(o.own_count, 4);
     assert_string_equal(o.own[0], "--method");
     assert_string_equal(o.own[1], "facets");
-    assert_int_equal(o.rest_count, 3);
-    assert_string_equal(o.rest[0], "+A0.3");
+    assert_string_equal(o.own[3], "1e-6");
     assert_int_equal(o.width, 64);
 }
 

@@ -377,14 +377,12 @@ bool options_parse(OptionsProgram program, int argc, char **argv, Arena *arena,
     Parse parse = {.program = program, .options = options, .arena = arena};
     options->shared = ARENA_ARRAY(arena, const char *, (size_t)argc + 1);
     options->own = ARENA_ARRAY(arena, const char *, (size_t)argc + 1);
-    options->rest = ARENA_ARRAY(arena, const char *, (size_t)argc + 1);
     for (int i = 1, used; i < argc; i += used) {
         if (strcmp(argv[i], "--") == 0) {
             if (program != PROGRAM_QICOMPARE)
                 return refuse(&parse, argv[i], "nothing may follow it in this program");
-            for (i++; i < argc; i++)
-                options->rest[options->rest_count++] = argv[i];
-            break;
+            used = 1;
+            continue;
         }
         if (!read_one(&parse, argv + i, &used))
             return false;

@@ -62,8 +62,6 @@ typedef struct {
     size_t shared_count;
     const char **own; // the words for qirender alone (--method ...), as given
     size_t own_count;
-    const char **rest; // what follows "--"
-    size_t rest_count;
 } RenderOptions;
 
 // ORDER program: which words a program takes
@@ -72,7 +70,8 @@ typedef enum { PROGRAM_QIRENDER, PROGRAM_POV2QI, PROGRAM_QICOMPARE } OptionsProg
 RenderOptions options_default(void);
 
 // Parses argv[1..]. A wrong word prints a message that names it and suggests the nearest, and a
-// hint at --help; the return value is then false (exit status 2). Memory in arena.
+// hint at --help; the return value is then false (exit status 2). Memory in arena. For qicompare,
+// words after "--" are read like those before it.
 bool options_parse(OptionsProgram program, int argc, char **argv, Arena *arena,
                    RenderOptions *options);
 

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: MIT
+// The front of patch.h: keeps the patches and hands each question to the method.
+#include "patch/patch.h"
+
+#include "base/arena.h"
+#include "base/array.h"
+#include "patch/accel.h"
+#include "patch/facets.h"
+#include "patch/paper.h"
+#include "patch/query.h"
+
+#include <assert.h>
+#include <string.h>
+
+// ORDER patch_method
+static const char *const method_names[METHOD_COUNT] = {"qi", "qi-paper", "facets"};
+
+struct PatchSet {
+    PatchSetOptions options;
+    Arena *arena;
+    ARRAY(PatchDef) defs; // their points lie in the arena
+    Box bounds;
+    bool committed;
+    // The method's own, the others are NULL.
+    Accel *accel;
+    Paper *paper;
+    Facets *facets;
+};
+
+const char *patch_method_name(PatchMethod method) {
+    assert(method >= 0 && method < METHOD_COUNT);
+    return method_names[method];
+}
+
+bool patch_method_parse(const char *name, PatchMethod *method) {
+    for (int i = 0; i < METHOD_COUNT; i++) {
+        if (strcmp(name, method_names[i]) == 0) {
+            *method = (PatchMethod)i;
+            return true;
+        }
+    }
+    return false;
+}
+
+PatchSetOptions patchset_options_default(void) {
+    return (PatchSetOptions){.method = METHOD_QI, .tolerance = 1e-9};
+}
+
+PatchSet *patchset_create(const PatchSetOptions *options) {
+    Arena *arena = arena_create();
+    PatchSet *set = ARENA_NEW(arena, PatchSet);
+    set->options = *options;
+    set->arena = arena;
+    set->bounds = box_empty();
+    return set;
+}
+
+void patchset_destroy(PatchSet *set) {
+    if (!set)
+        return;
+    array_free(&set->defs);
+    arena_destroy(set->arena);
+}
+
+void patchset_add(PatchSet *set, const PatchDef *def) {
+    assert(!set->committed);
+    assert(def->degree_u >= 1 && def->degree_u <= 16 && def->degree_v >= 1 && def->degree_v <= 16);
+    size_t count = (size_t)(def->degree_u + 1) * (def->degree_v + 1);
+    PatchDef own = *def;
+    own.points = arena_copy(set->arena, def->points, count * sizeof(Vec3));
+    for (size_t i = 0; i < count; i++) {
+        assert(vec_is_finite(own.points[i]));
+        set->bounds = box_extend(set->bounds, own.points[i]);
+    }
+    array_push(&set->defs, own);
+}
+
+void patchset_commit(PatchSet *set) {
+    assert(!set->committed);
+    set->committed = true;
+    const PatchDef *defs = set->defs.items;
+    size_t count = set->defs.count;
+    switch (set->options.method) {
+    case METHOD_QI:
+        set->accel = accel_create(set->arena, defs, count, set->options.tolerance);
+        break;
+    case METHOD_QI_PAPER:
+        set->paper = paper_create(set->arena, defs, count, set->options.tolerance);
+        break;
+    case METHOD_FACETS:
+        set->facets = facets_create(set->arena, defs, count);
+        break;
+    case METHOD_COUNT:
+        assert(!"no such method");
+    }
+}
+
+Box patchset_bounds(const PatchSet *set) { return set->bounds; }
+
+uint64_t patchset_memory(const PatchSet *set) {
+    return arena_bytes(set->arena) + set->defs.capacity * sizeof(PatchDef);
+}
+
+static void ask(const PatchSet *set, Query *query) {
+    assert(set->committed);
+    if (!vec_is_finite(query->ray.org) || !vec_is_finite(query->ray.dir))
+        return;
+    if (set->accel)
+        accel_query(set->accel, query);
+    else if (set->paper)
+        paper_query(set->paper, query);
+    else if (set->facets)
+        facets_query(set->facets, query);
+}
+
+static void add_stats(PatchStats *to, const Query *query) {
+    if (!to)
+        return;
+    to->patch_tests += query->stats.patch_tests;
+    to->steps += query->stats.steps;
+    to->newton += query->stats.newton;
+    to->hits += query->kind == QUERY_ALL ? query->stats.hits : query->found;
+}
+
+bool patchset_intersect(const PatchSet *set, const Ray *ray, double t_min, double t_max,
+                        uint32_t mask, PatchStats *stats, PatchHit *hit) {
+    Query query = {
+        .ray = *ray, .t_min = t_min, .t_max = t_max, .mask = mask, .kind = QUERY_NEAREST};
+    ask(set, &query);
+    add_stats(stats, &query);
+    if (query.found)
+        *hit = query.best;
+    return query.found;
+}
+
+bool patchset_occluded(const PatchSet *set, const Ray *ray, double t_min, double t_max,
+                       uint32_t mask, PatchStats *stats) {
+    Query query = {.ray = *ray, .t_min = t_min, .t_max = t_max, .mask = mask, .kind = QUERY_ANY};
+    ask(set, &query);
+    add_stats(stats, &query);
+    return query.found;
+}
+
+void patchset_all(const PatchSet *set, const Ray *ray, double t_min, double t_max, uint32_t mask,
+                  PatchStats *stats, PatchSink sink, void *context) {
+    Query query = {.ray = *ray,
+                   .t_min = t_min,
+                   .t_max = t_max,
+                   .mask = mask,
+                   .kind = QUERY_ALL,
+                   .sink = sink,
+                   .context = context};
+    ask(set, &query);
+    add_stats(stats, &query);
+}

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+// Ray against one Bézier patch with the quasi-interpolating net: complete, certified, any
+// bi-degree.
+//
+// qi_paper_*   the published loop, readable, no Newton: the reference (qi.c)
+// qi_reduce_*  the same bounds used to read the parameter interval off: converges quadratically,
+//              proves roots single before it sharpens them; the certain fallback of the fast path
+//              (qi_reduce.c)
+//
+// What is promised, for finite input (anything else, or a zero direction, gives no hit):
+//   - t_min <= t < t_max, (u,v) inside the rectangle asked for, |org + t dir - S(u,v)| <= bound,
+//     and bound <= tolerance + 4 R, where R = qi_rounding() is what rounding alone can do. The
+//     bound counts all rounding; the control points and the ray count as exact.
+//   - No crossing inside the rectangle, its sides included, is missed. A ray that passes within
+//     the tolerance of the surface without crossing it may or may not be reported.
+//   - One crossing is one hit, also where search pieces meet, at collapsed edges and at corners.
+//     Two crossings nearer to each other than the tolerance can tell (the two sides of a fold that
+//     the ray leaves by less than the tolerance) may be reported as one.
+//   - Where the ray lies in the surface the answers are infinitely many. Then some are reported,
+//     the nearest (within the tolerance) among them; never none.
+//   - Work is bounded: at most qi_work_limit() nets before only one child of a net is followed. The
+//     limit is far beyond what separate crossings need.
+//   - No heap, about 100 KB of stack, no state: any number of threads.
+#ifndef PATCH_QI_H
+#define PATCH_QI_H
+
+#include "patch/bezier.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+typedef struct {
+    double t, u, v; // u, v: parameters of the whole patch
+    Vec3 normal;    // unit, along dS/du x dS/dv, see bezier_normal()
+    double bound;   // scene units
+} QiHit;
+
+typedef struct {
+    Ray ray;             // dir of any length; t counts in it
+    double t_min, t_max; // t_min <= t < t_max; t_max may be INFINITY
+    double tolerance;    // scene units, >= 0
+    BezierRect rect;     // where to look
+} QiQuery;
+
+// The whole patch, t from 0 to infinity, tolerance 1e-9 of its diameter.
+QiQuery qi_query_default(const Bezier *patch, Ray ray);
+
+// Added to, never cleared. May be NULL.
+typedef struct {
+    uint64_t steps;   // nets built
+    uint64_t newton;  // Newton steps
+    uint64_t hits;    // hits reported
+    uint64_t limited; // queries that reached the work limit
+} QiStats;
+
+typedef void (*QiSink)(void *context, const QiHit *hit);
+
+// Every hit, by increasing t; returns their number. At most QI_MAX_HITS are reported.
+enum { QI_MAX_HITS = 640 }; // 2 * 16 * 16 are possible at degree 16, and some room
+int qi_paper_all(const Bezier *patch, const QiQuery *query, QiStats *stats, QiSink sink,
+                 void *context);
+int qi_reduce_all(const Bezier *patch, const QiQuery *query, QiStats *stats, QiSink sink,
+                  void *context);
+// The hit with the smallest t; false and *hit untouched when there is none.
+bool qi_paper_nearest(const Bezier *patch, const QiQuery *query, QiStats *stats, QiHit *hit);
+bool qi_reduce_nearest(const Bezier *patch, const QiQuery *query, QiStats *stats, QiHit *hit);
+// Is there a hit? Stops at the first one found.
+bool qi_paper_any(const Bezier *patch, const QiQuery *query, QiStats *stats);
+bool qi_reduce_any(const Bezier *patch, const QiQuery *query, QiStats *stats);
+
+// Bound of the rounding in a distance between ray and patch, scene units: a few dozen ulps of the
+// distance from the ray's origin to the farthest control point.
+double qi_rounding(const Bezier *patch, Vec3 org);
+int qi_work_limit(const Bezier *patch);
+
+#endif

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+// What the two QI searches share: the ray's frame, and the list of hits found.
+//
+// In the ray's frame the ray is the z axis from the origin upwards: x and y of a point are its two
+// distances from the ray, z its depth. A patch in this frame meets the ray where x = y = 0. Frame
+// units are scene units times a power of two, chosen so that no coordinate exceeds 1 by much: no
+// square over- or underflows, and the change of units is exact.
+#ifndef PATCH_QI_FRAME_H
+#define PATCH_QI_FRAME_H
+
+#include "patch/qi.h"
+
+typedef struct {
+    Vec3 org, e1, e2, w;   // scaled origin; unit axes, w along the ray
+    int exponent;          // frame units = scene units * 2^exponent
+    int t_exponent;        // t = z / length * 2^t_exponent
+    double length;         // of the ray's dir after scaling, in [0.5, 2)
+    double reach;          // largest distance of a control point from the origin
+    double slack, slack_z; // rounding of x or y, and of z, of any point or net point derived
+    double rounding;       // sqrt(2) slack + slack_z: of a distance in space
+    double tolerance;      // the query's, or what rounding allows
+    double z_low, z_high;  // depths that t_min and t_max allow, rounded outwards
+} QiFrame;
+
+// Puts the patch into the ray's frame: out gets its points. False for a ray or query that can have
+// no hit (zero or infinite direction, empty ranges, NaN).
+bool qi_frame_init(QiFrame *frame, const Bezier *patch, const QiQuery *query, Bezier *out);
+double qi_frame_t(const QiFrame *frame, double z);
+double qi_frame_scene(const QiFrame *frame, double length); // frame units to scene units
+
+typedef enum { QI_ALL, QI_NEAREST, QI_ANY } QiMode;
+
+typedef struct {
+    double t, z, u, v, bound; // bound in frame units
+    BezierRect rect;          // the piece it was found in
+    int sign;                 // of the projected Jacobian there; 0: not known
+} QiFound;
+
+// Hits found so far. QI_NEAREST and QI_ANY keep one.
+typedef struct {
+    QiMode mode;
+    double t_min, t_max;
+    int count, capacity;
+    QiFound *found;
+} QiList;
+
+// Adds a hit if its t lies in the range. In QI_ALL mode it merges with earlier ones whose pieces
+// touch its own, unless the signs say that the ray enters at one and leaves at the other. In the
+// other modes the nearer stays.
+void qi_list_add(QiList *list, QiFound found);
+// Depth beyond which nothing is of interest any more.
+double qi_list_z_high(const QiList *list, const QiFrame *frame);
+bool qi_list_done(const QiList *list); // QI_ANY has its hit
+// By increasing t, normals and scene units filled in.
+int qi_list_report(QiList *list, const Bezier *patch, const QiFrame *frame, Vec3 dir,
+                   QiStats *stats, QiSink sink, void *context);
+
+#endif

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+// A tree of boxes, four children to a node, over items that only their boxes describe. Built once;
+// read-only then, any number of threads.
+#ifndef RENDER_BVH_H
+#define RENDER_BVH_H
+
+#include "base/arena.h"
+#include "base/vec.h"
+
+#include <stdint.h>
+
+enum { BVH_WIDTH = 4 };
+
+// Boxes in single precision, rounded outwards; per axis all lanes together. A lane with count > 0
+// is a leaf of `count` items from `first` on in leaf order; count 0 and first > 0 is an inner node
+// (the root is nobody's child); both 0: empty, its box holds nothing.
+typedef struct {
+    float low[3][BVH_WIDTH], high[3][BVH_WIDTH];
+    uint32_t first[BVH_WIDTH], count[BVH_WIDTH];
+} BvhNode;
+
+typedef struct {
+    BvhNode *nodes; // nodes[0] is the root; none when there are no items
+    uint32_t node_count;
+    uint32_t *items; // leaf order -> the caller's index
+    uint32_t item_count;
+} Bvh;
+
+// boxes: finite, not empty. Nodes and items live in arena.
+Bvh bvh_build(const Box *boxes, uint32_t count, Arena *arena);
+
+// Calls visit for the leaves that the ray meets between t_min (>= 0) and t_max, nearer boxes first;
+// visit returns the new t_max, -INFINITY to end. Boxes that begin exactly at t_max are visited.
+// Conservative against all rounding of its own.
+typedef double (*BvhVisit)(void *context, uint32_t first, uint32_t count);
+void bvh_walk(const Bvh *bvh, const Ray *ray, double t_min, double t_max, BvhVisit visit,
+              void *context);
+
+// Calls visit for the leaves whose box holds p; ends when it returns true, and then is true.
+typedef bool (*BvhVisitPoint)(void *context, uint32_t first, uint32_t count);
+bool bvh_walk_point(const Bvh *bvh, Vec3 p, BvhVisitPoint visit, void *context);
+
+#endif

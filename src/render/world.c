@@ -1,0 +1,280 @@
+// SPDX-License-Identifier: MIT
+// Rays and points in a World. A ray tries the primitives, then the patches up to the depth found;
+// at equal depth the lower rank counts. Hits of leaves in a merge are dropped when the point lies
+// inside another child of the merge.
+#include "render/world_data.h"
+
+#include <assert.h>
+
+// POV-Ray's least depth of a patch.
+static const double PATCH_NEAREST = 1e-5;
+// ---- points ---------------------------------------------------------------------------------
+
+// Which primitives contain a point? Only those that the filter names are asked, or those of a span.
+typedef struct {
+    const World *world;
+    Vec3 p;
+    uint32_t filter; // NO_INDEX: the span
+    Span span;
+    uint32_t *found; // positions, ascending; NULL: end at the first
+    uint32_t count, max;
+} PointQuery;
+
+static bool within(uint32_t position, uint32_t first, uint32_t end) {
+    return position >= first && position < end;
+}
+
+static bool asks_for(const PointQuery *query, uint32_t position) {
+    if (query->filter == NO_INDEX)
+        return within(position, query->span.first, query->span.end);
+    const Filter *filters = query->world->filters;
+    for (uint32_t f = query->filter; f != NO_INDEX; f = filters[f].outer)
+        if (within(position, filters[f].first, filters[f].end) &&
+            !within(position, filters[f].own_first, filters[f].own_end))
+            return true;
+    return false;
+}
+
+static bool query_prim(PointQuery *query, const Prim *prim) {
+    uint32_t position = prim->leaf.position;
+    if (!asks_for(query, position))
+        return false;
+    if (!shape_inside(&prim->shape, query->p))
+        return false;
+    if (!query->found)
+        return true;
+    // Insert in order; the last one falls out when there is no room.
+    uint32_t at = query->count;
+    while (at > 0 && query->found[at - 1] > position)
+        at--;
+    if (at >= query->max)
+        return false;
+    if (query->count < query->max)
+        query->count++;
+    for (uint32_t i = query->count - 1; i > at; i--)
+        query->found[i] = query->found[i - 1];
+    query->found[at] = position;
+    return false;
+}
+
+static bool query_leaf(void *context, uint32_t first, uint32_t count) {
+    PointQuery *query = context;
+    for (uint32_t i = first; i < first + count; i++) {
+        const Prim *prim = &query->world->prims[i];
+        if (shape_inside_bounded(&prim->shape) && query_prim(query, prim))
+            return true;
+    }
+    return false;
+}
+
+static bool query_all(PointQuery *query) {
+    const World *world = query->world;
+    for (uint32_t i = 0; i < world->boundless_count; i++)
+        if (query_prim(query, &world->prims[world->boundless[i]]))
+            return true;
+    return bvh_walk_point(&world->tree, query->p, query_leaf, query);
+}
+
+static bool hidden(const World *world, const Leaf *leaf, Vec3 p) {
+    if (leaf->filter == NO_INDEX)
+        return false;
+    PointQuery query = {.world = world, .p = p, .filter = leaf->filter};
+    return query_all(&query);
+}
+
+uint32_t world_containing(const World *world, Vec3 p, uint32_t *objects, uint32_t max) {
+    if (max == 0)
+        return 0;
+    PointQuery query = {.world = world,
+                        .p = p,
+                        .filter = NO_INDEX,
+                        .span = {0, world->leaf_count},
+                        .found = objects,
+                        .max = max};
+    query_all(&query);
+    for (uint32_t i = 0; i < query.count; i++)
+        objects[i] = world->leaves[objects[i]].object;
+    return query.count;
+}
+
+bool world_inside(const World *world, uint32_t object, Vec3 p) {
+    assert(object < world->scene->object_count);
+    PointQuery query = {.world = world, .p = p, .filter = NO_INDEX, .span = world->spans[object]};
+    return query_all(&query);
+}
+
+// ---- rays -----------------------------------------------------------------------------------
+
+typedef struct {
+    const World *world;
+    const Ray *ray; // unit direction
+    double t_min;
+    uint32_t kind;
+    bool any; // the first hit ends it
+    RayStats *stats;
+    // The nearest so far; before that t = t_max with a rank that nothing is below.
+    double t;
+    uint32_t rank;
+    const Leaf *leaf;
+    const Prim *prim; // NULL: the hit is on a patch
+    int part;
+    PatchHit patch;
+} RayQuery;
+
+static bool counts(const RayQuery *query, double t, const Leaf *leaf) {
+    return t >= query->t_min && (t < query->t || (t == query->t && leaf->rank < query->rank)) &&
+           !hidden(query->world, leaf, vec_madd(query->ray->org, t, query->ray->dir));
+}
+
+static void keep(RayQuery *query, double t, const Leaf *leaf) {
+    query->t = t;
+    query->rank = leaf->rank;
+    query->leaf = leaf;
+}
+
+static void try_prim(RayQuery *query, const Prim *prim) {
+    if (!(prim->leaf.mask & query->kind))
+        return;
+    ShapeHit hits[SHAPE_MAX_HITS];
+    int count = shape_hits(&prim->shape, query->ray, hits);
+    query->stats->shape_tests++;
+    query->stats->shape_hits += count > 0;
+    for (int i = count - 1; i >= 0; i--) {
+        if (!counts(query, hits[i].t, &prim->leaf))
+            continue;
+        keep(query, hits[i].t, &prim->leaf);
+        query->prim = prim;
+        query->part = hits[i].part;
+    }
+}
+
+static double try_leaf(void *context, uint32_t first, uint32_t count) {
+    RayQuery *query = context;
+    for (uint32_t i = first; i < first + count; i++) {
+        try_prim(query, &query->world->prims[i]);
+        if (query->any && query->leaf)
+            return -INFINITY;
+    }
+    return query->t;
+}
+
+static void try_patch_hit(void *context, const PatchHit *hit) {
+    RayQuery *query = context;
+    const Leaf *leaf = &query->world->leaves[hit->id];
+    if (!counts(query, hit->t, leaf))
+        return;
+    keep(query, hit->t, leaf);
+    query->prim = NULL;
+    query->patch = *hit;
+}
+
+// Hits at the best depth so far are still wanted: an earlier object may have it.
+static double reach(const RayQuery *query) {
+    return query->leaf ? nextafter(query->t, INFINITY) : query->t;
+}
+
+static void try_patches(RayQuery *query) {
+    const World *world = query->world;
+    PatchStats *stats = &query->stats->patch;
+    double t_min = fmax(query->t_min, PATCH_NEAREST);
+    PatchHit hit;
+    if (world->patches && patchset_intersect(world->patches, query->ray, t_min, reach(query),
+                                             query->kind, stats, &hit))
+        try_patch_hit(query, &hit);
+    if (world->filtered)
+        patchset_all(world->filtered, query->ray, t_min, reach(query), query->kind, stats,
+                     try_patch_hit, query);
+}
+
+static void try_prims(RayQuery *query) {
+    const World *world = query->world;
+    for (uint32_t i = world->tree_count; i < world->prim_count; i++)
+        if (!(query->any && query->leaf))
+            try_prim(query, &world->prims[i]);
+    if (!(query->any && query->leaf))
+        bvh_walk(&world->tree, query->ray, fmax(query->t_min, 0.0), query->t, try_leaf, query);
+}
+
+// The same ray with a unit direction; the old one's length. A direction that camera and shading
+// have made unit is left alone, bit for bit: its square is within rounding of 1.
+static double unit_ray(const Ray *ray, Ray *unit) {
+    *unit = *ray;
+    double square = vec_dot(ray->dir, ray->dir);
+    if (fabs(square - 1.0) <= 0x1p-48)
+        return 1.0;
+    double length = sqrt(square);
+    if (!(length > 0.0) || !isfinite(length))
+        return 0.0;
+    unit->dir = vec_scale(ray->dir, 1.0 / length);
+    return length;
+}
+
+static Vec2 patch_uv(const PatchShape *patch, double u, double v) {
+    const double w[4] = {(1.0 - u) * (1.0 - v), (1.0 - u) * v, u * v, u * (1.0 - v)};
+    Vec2 uv = {0, 0};
+    for (int i = 0; i < 4; i++) {
+        uv.u += w[i] * patch->uv[i].u;
+        uv.v += w[i] * patch->uv[i].v;
+    }
+    return uv;
+}
+
+bool world_intersect(const World *world, const Ray *ray, double t_min, double t_max, RayKind kind,
+                     RayStats *stats, WorldHit *hit) {
+    Ray unit;
+    RayStats unused = {0};
+    double length = unit_ray(ray, &unit);
+    if (!(length > 0.0))
+        return false;
+    RayQuery query = {.world = world,
+                      .ray = &unit,
+                      .t_min = t_min * length,
+                      .kind = kind,
+                      .stats = stats ? stats : &unused,
+                      .t = t_max * length};
+    try_prims(&query);
+    try_patches(&query);
+    if (!query.leaf)
+        return false;
+    hit->t = query.t / length;
+    hit->p = vec_madd(unit.org, query.t, unit.dir);
+    hit->object = query.leaf->object;
+    if (query.prim) {
+        Vec2 uv = shape_uv(&query.prim->shape, hit->p, query.part);
+        hit->normal = shape_normal(&query.prim->shape, hit->p, query.part);
+        hit->u = uv.u, hit->v = uv.v;
+        hit->bound = 0.0;
+    } else {
+        const PatchShape *patch = &world->scene->objects[hit->object].shape.patch;
+        Vec2 uv = patch_uv(patch, query.patch.u, query.patch.v);
+        hit->normal = query.patch.normal;
+        hit->u = uv.u, hit->v = uv.v;
+        hit->bound = query.patch.bound;
+    }
+    return true;
+}
+
+bool world_occluded(const World *world, const Ray *ray, double t_min, double t_max,
+                    RayStats *stats) {
+    Ray unit;
+    RayStats unused = {0};
+    double length = unit_ray(ray, &unit);
+    if (!(length > 0.0))
+        return false;
+    RayQuery query = {.world = world,
+                      .ray = &unit,
+                      .t_min = t_min * length,
+                      .kind = RAY_SHADOW,
+                      .any = true,
+                      .stats = stats ? stats : &unused,
+                      .t = t_max * length};
+    double patch_min = fmax(query.t_min, PATCH_NEAREST);
+    if (world->patches && patchset_occluded(world->patches, &unit, patch_min, query.t, RAY_SHADOW,
+                                            &query.stats->patch))
+        return true;
+    try_prims(&query);
+    if (!query.leaf && world->filtered)
+        patchset_all(world->filtered, &unit, patch_min, query.t, RAY_SHADOW, &query.stats->patch,
+                     try_patch_hit, &query);
+    return query.leaf != NULL;
+}

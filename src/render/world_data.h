@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+// What a World is made of: for world_make.c, which fills it, and world.c, which traces it.
+#ifndef RENDER_WORLD_DATA_H
+#define RENDER_WORLD_DATA_H
+
+#include "render/bvh.h"
+#include "render/world.h"
+#include "shape/shape.h"
+
+// What patches and primitives have in common. Leaves are numbered in the order of the source.
+typedef struct {
+    uint32_t object;
+    uint32_t position;
+    uint32_t rank;   // which of two hits at the same depth counts: the lower
+    uint32_t mask;   // RayKind bits of the rays that see it
+    uint32_t filter; // index in filters, or NO_INDEX
+} Leaf;
+
+// For the leaves of one child of a merge: all leaves of the merge but those of that child hide
+// hits. outer: the same for the merge around, or NO_INDEX.
+typedef struct {
+    uint32_t first, end, own_first, own_end, outer;
+} Filter;
+
+typedef struct {
+    Shape shape;
+    Leaf leaf;
+} Prim;
+
+typedef struct {
+    uint32_t first, end; // leaves below an object
+} Span;
+
+struct World {
+    Arena *arena;
+    const Scene *scene;
+    Leaf *leaves;
+    uint32_t leaf_count;
+    Span *spans; // of every object
+    Filter *filters;
+    uint32_t filter_count;
+    // In the tree's leaf order, then those that are in no box.
+    Prim *prims;
+    uint32_t tree_count, prim_count;
+    Bvh tree;
+    // Prims with an inside that is not bounded by their box.
+    uint32_t *boundless;
+    uint32_t boundless_count;
+    PatchSet *patches;  // that nothing hides; id: leaf position
+    PatchSet *filtered; // in merges with something solid beside them
+};
+
+#endif

@@ -167,6 +167,8 @@ static const Row finishes[] = {
     {CLAY, "specular 0.6 roughness 0.2 metallic 0.6",
      FINISH(.specular = 0.6f, .roughness = 0.2f, .metallic = 0.6f), NULL, AIR},
     {CLAY, "irid { 0.5 thickness 0.3 }", FINISH(.irid = 0.5f, .irid_thickness = 0.3f), NULL, AIR},
+    {CLAY, "irid { 0.5 thickness 0.3 turbulence 0.7 }",
+     FINISH(.irid = 0.5f, .irid_thickness = 0.3f, .irid_turbulence = 0.7f), NULL, AIR},
     {CLAY, "diffuse 0 specular 0.4 irid { 0.7 thickness 1.3 }",
      FINISH(.diffuse = 0.0f, .specular = 0.4f, .irid = 0.7f, .irid_thickness = 1.3f), NULL, AIR},
 };

@@ -9,15 +9,9 @@
 #include <cmocka.h>
 
 #include "base/array.h"
-#include "base/diag.h"
-#include "base/rng.h"
+#include "pattern_oracle.h"
 #include "texture/pattern.h"
 #include "texture/texture.h"
-
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
-#include <unistd.h>
 
 typedef struct {
     const char *text;
@@ -40,93 +34,19 @@ static int teardown(void **state) {
     return 0;
 }
 
-// ---- asking POV-Ray ---------------------------------------------------------------------------
-
-enum { POINTS = 150 };
-
-// Dyadic, decimal, whole, far, tiny and negative coordinates.
-static Vec3 point(int i) {
-    Rng rng = {(uint64_t)i};
-    rng_next(&rng);
-    static const double scales[] = {1.0, 4.0, 30.0, 20000.0, 1e-3};
-    double c[3];
-    for (int k = 0; k < 3; k++) {
-        double x = rng_range(&rng, -1.0, 1.0) * scales[i % 5];
-        c[k] = i % 3 == 0 ? floor(x * 8.0) / 8.0 : i % 7 == 0 ? floor(x) : floor(x * 1e6) / 1e6;
-    }
-    return vec3(c[0], c[1], c[2]);
-}
-
-// Runs a script that writes one number a line to the file "values"; returns them.
-static double *povray_values(const char *script, size_t count) {
-    if (system("command -v povray >/dev/null 2>&1") != 0) {
-        printf("skipped: no povray to compare with\n");
-        skip();
-    }
-    char folder[] = "/tmp/qipov-test-XXXXXX";
-    if (mkdtemp(folder) == NULL)
-        die("cannot make a temporary folder");
-    FILE *out = fopen(arena_printf(arena, "%s/scene.pov", folder), "w");
-    if (out == NULL || fputs(script, out) < 0 || fclose(out) != 0)
-        die("cannot write the script");
-    int status = system(
-        arena_printf(arena, "cd %s && povray +Iscene.pov +W1 +H1 -F -D >log.txt 2>&1", folder));
-    if (status != 0)
-        status = system(arena_printf(arena, "cat %s/log.txt >&2", folder)) | 1;
-    double *values = ARENA_ARRAY(arena, double, count);
-    FILE *in = fopen(arena_printf(arena, "%s/values", folder), "r");
-    size_t got = 0;
-    while (in != NULL && got < count && fscanf(in, "%lf", &values[got]) == 1)
-        got++;
-    if (in != NULL)
-        fclose(in);
-    if (system(arena_printf(arena, "rm -r %s", folder)) != 0)
-        fprintf(stderr, "%s was left behind\n", folder);
-    assert_int_equal(status, 0);
-    assert_int_equal(got, count);
-    return values;
-}
-
-// The text that writes function F at all points; 40 decimals hold every double that matters.
-static void write_calls(FILE *script, const char *call) {
-    for (int i = 0; i < POINTS; i++) {
-        Vec3 p = point(i);
-        fprintf(script, "#write(V, str(F(%.17g, %.17g, %.17g)%s, 1, 40), \"\\n\")\n", p.x, p.y, p.z,
-                call);
-    }
-}
-
-static FILE *begin_script(char **buffer, size_t *size) {
-    FILE *script = open_memstream(buffer, size);
-    if (script == NULL)
-        die("out of memory");
-    fputs("#version 3.7;\nglobal_settings { assumed_gamma 1 }\n#fopen V \"values\" write\n",
-          script);
-    return script;
-}
-
 static void check_rows(const Rows *rows) {
-    char *buffer;
-    size_t size;
-    FILE *script = begin_script(&buffer, &size);
-    for (size_t r = 0; r < rows->count; r++) {
-        fprintf(script, "#declare F = function { pattern { %s } }\n", rows->items[r].text);
-        write_calls(script, "");
-        fprintf(script, "#undef F\n");
-    }
-    fclose(script);
-    double *want = povray_values(buffer, rows->count * POINTS);
-    int wrong = 0;
+    Oracle *oracle = oracle_create("");
     for (size_t r = 0; r < rows->count; r++)
-        for (int i = 0; i < POINTS; i++) {
+        oracle_function(
+            oracle, arena_printf(arena, "function { pattern { %s } }", rows->items[r].text), "");
+    const double *want = oracle_run(oracle);
+    for (size_t r = 0; r < rows->count; r++)
+        for (int i = 0; i < ORACLE_POINTS; i++) {
             const Pattern *pattern = &rows->items[r].pattern;
-            double have = pattern_value(pattern, pattern_point(pattern, point(i)));
-            if (have != want[r * POINTS + (size_t)i] && wrong++ < 20)
-                fprintf(stderr, "%s, point %d: %.17g, povray %.17g\n", rows->items[r].text, i, have,
-                        want[r * POINTS + (size_t)i]);
+            double have = pattern_value(pattern, pattern_point(pattern, oracle_point(i)));
+            oracle_equal(oracle, have, *want++, rows->items[r].text, i);
         }
-    free(buffer);
-    assert_int_equal(wrong, 0);
+    oracle_finish(oracle);
 }
 
 // ---- the table --------------------------------------------------------------------------------
@@ -197,27 +117,20 @@ static Scene scene_of(Pigment *pigments, uint32_t count) {
 static const char *const channels[5] = {".red", ".green", ".blue", ".filter", ".transmit"};
 
 static void check_pigment(const char *text, const Scene *scene, uint32_t pigment) {
-    char *buffer;
-    size_t size;
-    FILE *script = begin_script(&buffer, &size);
-    fprintf(script, "#declare F = function { pigment { %s } }\n", text);
+    Oracle *oracle = oracle_create("");
     for (int c = 0; c < 5; c++)
-        write_calls(script, channels[c]);
-    fclose(script);
-    double *want = povray_values(buffer, 5 * POINTS);
-    int wrong = 0;
-    for (int i = 0; i < POINTS; i++) {
-        TexturePoint at = {.p = point(i)};
-        Color have;
-        assert_true(pigment_color(scene, pigment, &at, &have));
-        const float values[5] = {have.r, have.g, have.b, have.filter, have.transmit};
-        for (int c = 0; c < 5; c++)
-            if (values[c] != want[c * POINTS + i] && wrong++ < 20)
-                fprintf(stderr, "point %d%s: %.9g, povray %.17g\n", i, channels[c],
-                        (double)values[c], want[c * POINTS + i]);
-    }
-    free(buffer);
-    assert_int_equal(wrong, 0);
+        oracle_function(oracle, arena_printf(arena, "function { pigment { %s } }", text),
+                        channels[c]);
+    const double *want = oracle_run(oracle);
+    for (int c = 0; c < 5; c++)
+        for (int i = 0; i < ORACLE_POINTS; i++) {
+            TexturePoint at = {.p = oracle_point(i)};
+            Color have;
+            assert_true(pigment_color(scene, pigment, &at, &have));
+            const float values[5] = {have.r, have.g, have.b, have.filter, have.transmit};
+            oracle_equal(oracle, values[c], *want++, channels[c], i);
+        }
+    oracle_finish(oracle);
 }
 
 // Positions out of order of colours, a position twice, the end before 1.

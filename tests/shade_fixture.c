@@ -3,6 +3,7 @@
 
 #include "base/diag.h"
 
+#include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -236,7 +237,7 @@ static const unsigned char *povray_picture(Fixture *f) {
 
 static int quantise(double value, int max) {
     value = value < 0.0 ? 0.0 : value > 1.0 ? 1.0 : value;
-    return (int)(value * max + 0.5);
+    return (int)floorf((float)value * (float)max + 0.5f); // POV-Ray rounds in float
 }
 
 // Facts: rendering 3.4.

@@ -59,7 +59,7 @@ static Color sky_legacy(const Shading *shading, Vec3 dir, bool alpha) {
         double own = trans * (1.0 - c.filter - c.transmit);
         sum = rgb_add(sum, rgb_scale(color_rgb(c), own));
         filter = color_mul(filter, c);
-        trans = fabs(filter.filter) + fabs(filter.transmit);
+        trans = fabsf(filter.filter) + fabsf(filter.transmit);
     }
     sum = rgb_add(rgb_mul(sum, scene->sky_sphere.emission),
                   rgb_mul(color_rgb(back), color_through(filter)));

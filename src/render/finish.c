@@ -3,6 +3,8 @@
 // rounded to float where POV-Ray rounds it.
 #include "render/shading.h"
 
+#include "texture/noise.h"
+
 #include <math.h>
 
 // POV-Ray's generator for crand: a step of 32 bits, then the whole state as a fraction.
@@ -75,8 +77,12 @@ void finish_specular(const LitLayer *layer, Vec3 eye, Vec3 dir, Rgb light, Rgb *
 
 void finish_irid(const Scene *scene, const Finish *finish, Vec3 p, Vec3 eye, Vec3 dir, Vec3 normal,
                  Rgb *color) {
-    (void)p;
     double thickness = finish->irid_thickness;
+    if (finish->irid_turbulence != 0.0f) {
+        const NoiseOctaves octaves = {5, 2.0f, 0.5f};
+        double n = noise_turbulence(p, &octaves, scene->settings.noise_generator);
+        thickness *= 1.0 + (2.0 * n - 1.0) * finish->irid_turbulence;
+    }
     double cosines = fabs(vec_dot(normal, dir)) + fabs(vec_dot(normal, eye));
     double phase = 2.0 * M_PI * thickness * cosines;
     Rgb wavelength = scene->settings.irid_wavelength;

@@ -3,6 +3,8 @@
 // once per scene, the tracer of a thread, the bodies the camera stands in.
 #include "render/shading.h"
 
+#include "texture/noise.h"
+
 #include <assert.h>
 #include <string.h>
 
@@ -42,6 +44,7 @@ static void prepare_objects(Shading *shading) {
 }
 
 Shading *shading_create(const Scene *scene, const World *world, const TraceOptions *options) {
+    noise_prepare();
     Arena *arena = arena_create();
     Shading *shading = ARENA_NEW(arena, Shading);
     shading->arena = arena;

@@ -449,7 +449,7 @@ static Vec3 vaxis_rotate_call(Converter *cv) {
     optional_comma(cv);
     double deg = parse_float(cv);
     expect(cv, ')', "vaxis_rotate");
-    return rotate_about(p, vec_length(a) > 0 ? vec_normalize(a) : a, deg);
+    return rotate_about(p, vec_normalize(a), deg);
 }
 
 static Vec3 vnormalize_call(Converter *cv, const Token *name) {

@@ -37,17 +37,18 @@ bool starts_color(Converter *cv) {
     return is_color_keyword(peek_token(cv)->code) || peek_value_type(cv) == VALUE_COLOR;
 }
 
-// The transfer curve of IEC 61966-2-1, to linear light.
-static double srgb_decode(double v) {
-    return v <= 0.04045 ? v / 12.92 : pow((v + 0.055) / 1.055, 2.4);
+// The transfer curve of IEC 61966-2-1, to linear light. In single precision throughout, as
+// POV-Ray has it.
+static float srgb_decode(float v) {
+    return v <= 0.04045f ? v / 12.92f : powf((v + 0.055f) / 1.055f, 2.4f);
 }
 
 // Into the working space that assumed_gamma chose.
 static float to_working_space(const Converter *cv, float v) {
     if (cv->gamma_is_srgb)
         return v;
-    double linear = srgb_decode((double)v);
-    return (float)(cv->gamma == 1 ? linear : pow(linear, 1 / cv->gamma));
+    float linear = srgb_decode(v);
+    return cv->gamma == 1 ? linear : powf(linear, 1.0f / (float)cv->gamma);
 }
 
 // After a base keyword: how many components it expects, where the last one goes.

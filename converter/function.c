@@ -363,12 +363,12 @@ static const struct {
 } operators[] = {
     {'|', 0, OP_OR},       {'&', 1, OP_AND},
     {'=', 2, OP_EQUAL},    {TOK_NE, 2, OP_NOT_EQUAL},
-    {'<', 3, OP_LESS},     {TOK_LE, 3, OP_LESS_EQUAL},
-    {'>', 3, OP_GREATER},  {TOK_GE, 3, OP_GREATER_EQUAL},
-    {'+', 4, OP_ADD},      {'-', 4, OP_SUBTRACT},
-    {'*', 5, OP_MULTIPLY}, {'/', 5, OP_DIVIDE},
+    {'<', 2, OP_LESS},     {TOK_LE, 2, OP_LESS_EQUAL},
+    {'>', 2, OP_GREATER},  {TOK_GE, 2, OP_GREATER_EQUAL},
+    {'+', 3, OP_ADD},      {'-', 3, OP_SUBTRACT},
+    {'*', 4, OP_MULTIPLY}, {'/', 4, OP_DIVIDE},
 };
-enum { UNARY_LEVEL = 6 };
+enum { UNARY_LEVEL = 5 };
 
 static void parse_binary(Compiler *c, int level) {
     if (level == UNARY_LEVEL) {
@@ -438,6 +438,7 @@ static bool parse_special(Compiler *c) {
         expect(cv, ')', "internal");
     } else if (accept(cv, KW_spline)) {
         f->kind = BODY_SPLINE;
+        f->parameter_count = 1;
         f->spline = parse_spline(cv);
     } else if (next_is(cv, KW_transform) || next_is(cv, KW_pigment) || next_is(cv, KW_pattern)) {
         f->kind = next_is(cv, KW_transform) ? BODY_TRANSFORM : BODY_PIGMENT;

@@ -93,10 +93,17 @@ Array *array_clone(Converter *cv, const Array *array);
 int value_width(ValueType type); // 1..5, 0 if it is not numeric
 Value value_number(const double c[5], int width);
 
-// What stands right of '=' or as a macro's argument. Without `declared` a single name is passed by
-// reference: *reference is then where it is kept (its value is in *out too).
+// A macro's argument that is a bare name is passed by reference, unless the name belongs to a scope
+// that ends with the argument (the local of a macro that is the argument).
+typedef struct {
+    int outermost; // scopes up to this one live on
+    Place place;   // value NULL: the argument is no bare name
+} Reference;
+
+// What stands right of '=', as an array's element, or as a macro's argument (then reference is not
+// NULL). False: nothing of the kind is next.
 typedef enum { RVALUE_DECLARE, RVALUE_ARGUMENT, RVALUE_ELEMENT } RvalueUse;
-bool parse_rvalue(Converter *cv, RvalueUse use, Value *out, Place *reference);
+bool parse_rvalue(Converter *cv, RvalueUse use, Value *out, Reference *reference);
 
 // ---- expr.c -----------------------------------------------------------------------------------
 

@@ -88,7 +88,7 @@ void define_macro(Converter *cv, const Token *word) {
 
 typedef struct {
     Value value;
-    Place reference;
+    Reference reference;
 } Argument;
 
 static void read_argument(Converter *cv, const Macro *macro, size_t index, Argument *out) {
@@ -105,12 +105,12 @@ static void read_argument(Converter *cv, const Macro *macro, size_t index, Argum
 
 static void bind_argument(Converter *cv, uint32_t name, const Argument *argument) {
     Symbol *symbol = symbol_add(cv, name, scope_level(cv));
-    if (!argument->reference.value) {
+    if (!argument->reference.place.value) {
         symbol->value = argument->value;
         return;
     }
-    symbol->target = argument->reference.value;
-    symbol->target_array = argument->reference.array;
+    symbol->target = argument->reference.place.value;
+    symbol->target_array = argument->reference.place.array;
 }
 
 // NAME ( argument [,] argument ... )
@@ -119,9 +119,12 @@ void call_macro(Converter *cv, const Token *name, const Macro *macro) {
     Argument few[8], *arguments = few;
     if (macro->parameter_count > sizeof few / sizeof *few)
         arguments = ARENA_ARRAY(cv->arena, Argument, macro->parameter_count);
+    int level = scope_level(cv);
     expect(cv, '(', name_text(cv, macro->name));
-    for (size_t i = 0; i < macro->parameter_count; i++)
+    for (size_t i = 0; i < macro->parameter_count; i++) {
+        arguments[i] = (Argument){.reference.outermost = level};
         read_argument(cv, macro, i, &arguments[i]);
+    }
     expect(cv, ')', name_text(cv, macro->name));
     push_macro(cv, macro, name);
     for (size_t i = 0; i < macro->parameter_count; i++)

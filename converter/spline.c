@@ -46,26 +46,31 @@ static void insert_key(Converter *cv, Spline *s, const Key *key) {
     items[i] = *key;
 }
 
-// The tridiagonal system of the C2 spline whose second derivatives vanish at both ends.
+// The second derivatives of the C2 spline that has none at both ends: the tridiagonal system of
+// the middle keys, eliminated downwards, solved upwards.
 static void solve_natural(Converter *cv, Spline *s) {
     size_t n = s->keys.count;
     Key *k = s->keys.items;
-    if (n < 3)
-        return;
-    double *diagonal = ARENA_ARRAY(cv->arena, double, n);
-    for (int c = 0; c < 5; c++) {
-        for (size_t i = 1; i + 1 < n; i++) {
-            double h0 = k[i].at - k[i - 1].at, h1 = k[i + 1].at - k[i].at;
-            double right = 6 * ((k[i + 1].value[c] - k[i].value[c]) / h1 -
-                                (k[i].value[c] - k[i - 1].value[c]) / h0);
-            double factor = i > 1 ? h0 / diagonal[i - 1] : 0;
-            diagonal[i] = 2 * (h0 + h1) - factor * h0;
-            k[i].second[c] = right - factor * k[i - 1].second[c];
+    double *pivot = ARENA_ARRAY(cv->arena, double, n), *right = ARENA_ARRAY(cv->arena, double, n);
+    for (int c = 0; n > 2 && c < 5; c++) {
+        double before = 0, slope_before = 0; // length and slope of the segment before key i
+        for (size_t i = 0; i + 1 < n; i++) {
+            double after = k[i + 1].at - k[i].at;
+            double slope_after = (k[i + 1].value[c] - k[i].value[c]) / after;
+            if (i > 0) {
+                pivot[i] = 2 * (after + before);
+                right[i] = 6 * (slope_after - slope_before);
+            }
+            if (i > 1) {
+                pivot[i] -= before * before / pivot[i - 1];
+                right[i] -= before * right[i - 1] / pivot[i - 1];
+            }
+            before = after;
+            slope_before = slope_after;
         }
-        for (size_t i = n - 2; i >= 1; i--) {
-            double h1 = k[i + 1].at - k[i].at;
-            k[i].second[c] = (k[i].second[c] - h1 * k[i + 1].second[c]) / diagonal[i];
-        }
+        k[n - 1].second[c] = k[0].second[c] = 0;
+        for (size_t i = n - 2; i > 0; i--)
+            k[i].second[c] = (right[i] - (k[i + 1].at - k[i].at) * k[i + 1].second[c]) / pivot[i];
     }
 }
 
@@ -83,8 +88,10 @@ Spline *parse_spline(Converter *cv) {
             list_push(cv, &s->keys, old->keys.items[i]);
     }
     accept_spline_kind(cv, &s->kind);
+    // The components that a value does not give stay those of the value before, as in POV-Ray.
+    Key key = {0};
     while (starts_expression(cv)) {
-        Key key = {.at = parse_float(cv)};
+        key.at = parse_float(cv);
         optional_comma(cv);
         int width = parse_full(cv, key.value, 2);
         s->width = width > s->width ? width : s->width;
@@ -98,70 +105,71 @@ Spline *parse_spline(Converter *cv) {
     return s;
 }
 
-// ---- evaluation: one component c at t in the segment that ends at key i -----------------------
+// ---- evaluation ---------------------------------------------------------------------------------
+// One component c at t, in the segment from key a to a + 1. The order of the operations is POV-
+// Ray's: spline values become coordinates, and must have its bits.
 
-static double linear(const Key *k, size_t i, int c, double t) {
-    double p = (t - k[i - 1].at) / (k[i].at - k[i - 1].at);
-    return k[i - 1].value[c] + p * (k[i].value[c] - k[i - 1].value[c]);
+static double linear(const Key *a, int c, double t) {
+    const Key *b = a + 1;
+    return (t - a->at) * (b->value[c] - a->value[c]) / (b->at - a->at) + a->value[c];
 }
 
-// The parabola through three keys, in Lagrange's form.
-static double quadratic(const Key *k, size_t i, int c, double t) {
-    const Key *a = i == 1 ? &k[0] : &k[i - 2], *b = a + 1, *d = a + 2;
-    return a->value[c] * (t - b->at) * (t - d->at) / ((a->at - b->at) * (a->at - d->at)) +
-           b->value[c] * (t - a->at) * (t - d->at) / ((b->at - a->at) * (b->at - d->at)) +
-           d->value[c] * (t - a->at) * (t - b->at) / ((d->at - a->at) * (d->at - b->at));
+// Through the keys a - 1, a, a + 1: the coefficients by Cramer's rule, then Horner.
+static double quadratic(const Key *a, int c, double t) {
+    double t0 = a[-1].at, t1 = a[0].at, t2 = a[1].at;
+    double v0 = a[-1].value[c], v1 = a[0].value[c], v2 = a[1].value[c];
+    double det = (t1 - t0) * (t2 - t0) * (t2 - t1);
+    double square = -t1 * v0 + t2 * v0 + t0 * v1 - t2 * v1 - t0 * v2 + t1 * v2;
+    double first =
+        t1 * t1 * v0 - t2 * t2 * v0 - t0 * t0 * v1 + t2 * t2 * v1 + t0 * t0 * v2 - t1 * t1 * v2;
+    double constant = -t1 * t1 * t2 * v0 + t1 * t2 * t2 * v0 + t0 * t0 * t2 * v1 -
+                      t0 * t2 * t2 * v1 - t0 * t0 * t1 * v2 + t0 * t1 * t1 * v2;
+    return (square / det * t + first / det) * t + constant / det;
 }
 
 // Hermite's cubic; the tangent at a key is the mean of the slopes on both sides.
-static double cubic(const Key *k, size_t i, int c, double t) {
-    const Key *a = &k[i - 1], *b = &k[i];
-    double h = b->at - a->at, p = (t - a->at) / h;
-    double slope = (b->value[c] - a->value[c]) / h;
-    double before = (a->value[c] - k[i - 2].value[c]) / (a->at - k[i - 2].at);
-    double after = (k[i + 1].value[c] - b->value[c]) / (k[i + 1].at - b->at);
-    double ta = (before + slope) / 2 * h, tb = (slope + after) / 2 * h, q = p - 1;
-    return a->value[c] * (1 + 2 * p) * q * q + b->value[c] * p * p * (3 - 2 * p) + ta * p * q * q +
-           tb * p * p * q;
+static double cubic(const Key *a, int c, double t) {
+    double h = a[1].at - a[0].at, u = (t - a[0].at) / h;
+    double slope = (a[1].value[c] - a[0].value[c]) / (a[1].at - a[0].at);
+    double before = (a[0].value[c] - a[-1].value[c]) / (a[0].at - a[-1].at);
+    double after = (a[2].value[c] - a[1].value[c]) / (a[2].at - a[1].at);
+    double tangent_a = (before + slope) / 2 * h, tangent_b = (after + slope) / 2 * h;
+    return a[0].value[c] * (2 * u * u * u - 3 * u * u + 1) +
+           a[1].value[c] * (3 * u * u - 2 * u * u * u) + tangent_a * (u * u * u - 2 * u * u + u) +
+           tangent_b * (u * u * u - u * u);
 }
 
-static double natural(const Key *k, size_t i, int c, double t) {
-    const Key *a = &k[i - 1], *b = &k[i];
-    double h = b->at - a->at, p = (t - a->at) / h, q = 1 - p;
-    return q * a->value[c] + p * b->value[c] +
-           h * h / 6 * ((q * q * q - q) * a->second[c] + (p * p * p - p) * b->second[c]);
+// Taylor's polynomial about key a.
+static double natural(const Key *a, int c, double t) {
+    double h = a[1].at - a[0].at, d = t - a[0].at;
+    double curve = a[0].second[c] / 2 + d * (a[1].second[c] - a[0].second[c]) / (6 * h);
+    double slope = -(h / 6) * (a[1].second[c] + 2 * a[0].second[c]) +
+                   (a[1].value[c] - a[0].value[c]) / h + d * curve;
+    return a[0].value[c] + d * slope;
 }
 
 static double evaluate(const Spline *s, SplineKind kind, double t, int c) {
     const Key *k = s->keys.items;
-    size_t n = s->keys.count, i = 1;
+    size_t n = s->keys.count, i = 0; // keys before t
     if (n == 1)
         return k[0].value[c];
+    while (i < n && k[i].at < t)
+        i++;
     if (kind == SPLINE_CUBIC) {
         // Without a key on both sides there is no tangent: only the inner segments exist.
         if (n == 2)
             return (k[0].value[c] + k[1].value[c]) / 2;
-        if (t <= k[1].at)
+        if (i < 2)
             return k[1].value[c];
-        if (t >= k[n - 2].at)
-            return k[n - 2].value[c];
+        return i >= n - 1 ? k[n - 2].value[c] : cubic(&k[i - 1], c, t);
     }
-    if (!(t > k[0].at))
+    if (i == 0)
         return k[0].value[c];
-    if (t >= k[n - 1].at)
+    if (t >= k[n - 1].at || i == n)
         return k[n - 1].value[c];
-    while (k[i].at < t)
-        i++;
-    switch (kind) {
-    case SPLINE_QUADRATIC:
-        return n > 2 ? quadratic(k, i, c, t) : linear(k, i, c, t);
-    case SPLINE_CUBIC:
-        return cubic(k, i, c, t);
-    case SPLINE_NATURAL:
-        return natural(k, i, c, t);
-    default:
-        return linear(k, i, c, t);
-    }
+    if (kind == SPLINE_QUADRATIC && n > 2)
+        return quadratic(&k[i == 1 ? 1 : i - 1], c, t);
+    return kind == SPLINE_NATURAL ? natural(&k[i - 1], c, t) : linear(&k[i - 1], c, t);
 }
 
 int spline_evaluate(const Spline *s, SplineKind kind, double at, double e[5]) {

@@ -211,7 +211,8 @@ static const char *parse_substr(Converter *cv) {
         die_at(&loc, "illegal parameters in substr: %g characters from %g of a string of %zu", n, p,
                units);
     }
-    const char *from = skip_units(s, p > 0 ? (size_t)p - 1 : 0);
+    // Position 0 is before the text; POV-Ray finds nothing there.
+    const char *from = p > 0 ? skip_units(s, (size_t)p - 1) : "";
     size_t bytes = (size_t)(skip_units(from, (size_t)n) - from);
     char *out = arena_alloc(cv->arena, bytes + 1);
     memcpy(out, from, bytes);

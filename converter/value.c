@@ -98,7 +98,8 @@ static void parse_initializer(Converter *cv, Array *array, int dimension, size_t
         optional_comma(cv);
     }
     expect(cv, '}', "array initializer");
-    optional_comma(cv);
+    if (dimension > 0)
+        optional_comma(cv);
 }
 
 // array[F]...[F] [ initializer ]
@@ -145,34 +146,32 @@ static void require_semicolon(Converter *cv) {
            token_describe(cv, peek_token(cv)));
 }
 
-// A bare name passed by reference: its place, unless it lives in a scope that ends with the
-// argument (a macro's own local as its value).
-static void set_reference(Place *reference, const Place *place, int level) {
-    if (reference && place->symbol->scope <= level)
-        *reference = *place;
+// Does the scope of this name live longer than the argument?
+static bool outlives(const Reference *reference, const Place *place) {
+    return reference && place->symbol && place->symbol->scope <= reference->outermost;
 }
 
 // An ADD expression, or the bare name of a function or spline.
-static void parse_numeric(Converter *cv, RvalueUse use, Value *out, Place *reference) {
+static void parse_numeric(Converter *cv, RvalueUse use, Value *out, Reference *reference) {
     const Place *ahead = ahead_place(cv);
     Place place = ahead ? *ahead : (Place){0};
     ValueType type = ahead ? place.value->type : VALUE_NONE;
-    int level = scope_level(cv);
     const Token *after = raw_peek(cv);
+    bool lasting = outlives(reference, &place), bare = false;
     bool held = hold_directives(cv);
     if ((type == VALUE_FUNCTION || type == VALUE_SPLINE) && (!after || after->code != '(')) {
         next_token(cv);
         *out = *place.value;
-        if (type == VALUE_SPLINE)
-            set_reference(reference, &place, level);
+        bare = type == VALUE_SPLINE; // functions always go by value
     } else {
         uint64_t start = cv->language->consumed;
         double e[5] = {0};
         int width = parse_add(cv, e, 1);
         *out = value_number(e, width);
-        if (type != VALUE_NONE && cv->language->consumed == start + 1)
-            set_reference(reference, &place, level);
+        bare = type != VALUE_NONE && cv->language->consumed == start + 1;
     }
+    if (bare && lasting)
+        reference->place = place;
     if (use == RVALUE_DECLARE)
         require_semicolon(cv);
     restore_directives(cv, held);
@@ -189,7 +188,7 @@ static void parse_color_value(Converter *cv, RvalueUse use, Value *out) {
     restore_directives(cv, held);
 }
 
-static bool parse_named(Converter *cv, RvalueUse use, Value *out, Place *reference) {
+static bool parse_named(Converter *cv, RvalueUse use, Value *out, Reference *reference) {
     const Place *ahead = ahead_place(cv);
     if (!ahead) {
         const Token *token = peek_token(cv);
@@ -207,10 +206,9 @@ static bool parse_named(Converter *cv, RvalueUse use, Value *out, Place *referen
         return false;
     if (place.value->type == VALUE_FILE)
         die_expected(cv, "a value");
-    int level = scope_level(cv);
     next_token(cv);
-    if (reference && place.symbol->scope <= level) {
-        *reference = place;
+    if (outlives(reference, &place)) {
+        reference->place = place;
         *out = *place.value;
     } else {
         *out = clone_value(cv, place.value);
@@ -218,7 +216,7 @@ static bool parse_named(Converter *cv, RvalueUse use, Value *out, Place *referen
     return true;
 }
 
-static bool parse_kind(Converter *cv, RvalueUse use, Value *out, Place *reference) {
+static bool parse_kind(Converter *cv, RvalueUse use, Value *out, Reference *reference) {
     int code = peek_token(cv)->code;
     if (code == TOK_IDENTIFIER && parse_named(cv, use, out, reference))
         return true;
@@ -241,11 +239,9 @@ static bool parse_kind(Converter *cv, RvalueUse use, Value *out, Place *referenc
     return true;
 }
 
-bool parse_rvalue(Converter *cv, RvalueUse use, Value *out, Place *reference) {
+bool parse_rvalue(Converter *cv, RvalueUse use, Value *out, Reference *reference) {
     enter_level(cv);
     *out = (Value){0};
-    if (reference)
-        *reference = (Place){0};
     bool held = release_directives(cv);
     bool found = parse_kind(cv, use, out, reference);
     restore_directives(cv, held);

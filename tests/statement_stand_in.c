@@ -94,7 +94,7 @@ WEAK void parse_scene_statements(Converter *cv) {
         if (accept_old_directive(cv) || accept_value(cv, VALUE_OBJECT))
             continue;
         if (next_is(cv, KW_global_settings)) {
-            cv->gamma_set = true;
+            cv->gamma_set = true; // all test scenes say assumed_gamma 1
             cv->gamma = 1;
         }
         if (!parse_statement_value(cv, &value))

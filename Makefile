@@ -36,7 +36,8 @@ TESTS    = $(patsubst tests/%.c,%,$(wildcard tests/test_*.c))
 TEST_LIB = $(filter-out $(wildcard tests/test_*.c),$(wildcard tests/*.c))
 
 OBJ      = $(LIB_C:%.c=build/%.o) $(LIB_CXX:%.cpp=build/%.o)
-TEST_OBJ = $(LIB_C:%.c=build/test/%.o) $(LIB_CXX:%.cpp=build/test/%.o) $(TEST_LIB:%.c=build/test/%.o)
+TEST_OBJ = $(LIB_C:%.c=build/test/%.o) $(LIB_CXX:%.cpp=build/test/%.o)
+SHARED   = build/test/libtests.a
 
 all: $(PROGRAMS:%=build/%)
 
@@ -67,13 +68,16 @@ build/qi%: build/src/cmd/qi%.o $(OBJ)
 # The programs under the sanitizers, for tests that run them; and the cmocka programs.
 build/test/pov2qi: build/test/converter/main.o $(TEST_OBJ)
 	@echo '  LD  $@'
-	@$(CC) -fopenmp -fsanitize=address,undefined -o $@ $^ -lcmocka $(LIBS)
+	@$(CC) -fopenmp -fsanitize=address,undefined -o $@ $^ $(LIBS)
 build/test/qi%: build/test/src/cmd/qi%.o $(TEST_OBJ)
 	@echo '  LD  $@'
-	@$(CC) -fopenmp -fsanitize=address,undefined -o $@ $^ -lcmocka $(LIBS)
-build/test/test_%: build/test/tests/test_%.o $(TEST_OBJ)
+	@$(CC) -fopenmp -fsanitize=address,undefined -o $@ $^ $(LIBS)
+build/test/test_%: build/test/tests/test_%.o $(TEST_OBJ) $(SHARED)
 	@echo '  LD  $@'
 	@$(CC) -fopenmp -fsanitize=address,undefined -o $@ $^ -lcmocka $(LIBS)
+$(SHARED): $(TEST_LIB:%.c=build/test/%.o)
+	@rm -f $@
+	@ar rcs $@ $^
 
 deps:
 	@tests/deps.sh $(PACKAGES)

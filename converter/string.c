@@ -233,7 +233,7 @@ static const char *parse_case(Converter *cv, const char *where, char low, char h
 // C's "%[0]L.Pf"; a number that needs more than 254 characters is written with %g.
 static const char *format_number(Converter *cv, double v, double length, double precision) {
     int width = length >= 0 ? (int)fmin(length, 250) : (int)fmin(-length, 250);
-    char format[32], text[256];
+    char format[40], text[256];
     char digits[16] = "";
     if (precision >= 0)
         snprintf(digits, sizeof digits, ".%d", (int)fmin(precision, 250));

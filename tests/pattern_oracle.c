@@ -24,7 +24,7 @@ struct Oracle {
     int wrong;
 };
 
-Vec3 oracle_point(int i) {
+Vec3 pattern_oracle_point(int i) {
     Rng rng = {(uint64_t)i};
     rng_next(&rng);
     static const double scales[] = {1.0, 4.0, 30.0, 20000.0, 1e-3};
@@ -54,7 +54,7 @@ Arena *oracle_arena(Oracle *o) { return o->arena; }
 void oracle_function(Oracle *o, const char *function, const char *after) {
     fprintf(o->script, "#declare F = %s\n", function);
     for (int i = 0; i < ORACLE_POINTS; i++) {
-        Vec3 p = oracle_point(i);
+        Vec3 p = pattern_oracle_point(i);
         // 40 decimals hold every bit that can matter.
         fprintf(o->script, "#write(V, str(F(%.17g, %.17g, %.17g)%s, 1, 40), \"\\n\")\n", p.x, p.y,
                 p.z, after);
@@ -95,7 +95,7 @@ const double *oracle_run(Oracle *o) {
 
 void oracle_equal(Oracle *o, double have, double want, const char *what, int i) {
     if (have != want && o->wrong++ < 20) {
-        Vec3 p = oracle_point(i);
+        Vec3 p = pattern_oracle_point(i);
         fprintf(stderr, "%s at %g, %g, %g: %.17g, povray %.17g\n", what, p.x, p.y, p.z, have, want);
     }
 }

@@ -10,7 +10,7 @@ typedef struct Oracle Oracle;
 
 enum { ORACLE_POINTS = 150 };
 // Dyadic, decimal, whole, far, tiny and negative coordinates.
-Vec3 oracle_point(int i);
+Vec3 pattern_oracle_point(int i);
 
 // A script that begins with those lines. Everything lives until oracle_finish().
 Oracle *oracle_create(const char *head);

@@ -15,7 +15,7 @@
 
 #include <cmocka.h>
 
-static char folder[4096], project[2048];
+static char folder[2200], project[2048];
 
 static void remove_folder(void) {
     char command[4200];
@@ -66,7 +66,7 @@ static const char *render(const char *program, const char *name, const char *sce
     static int turn;
     char *out = paths[turn++ % 16];
     snprintf(out, sizeof paths[0], "%s/%s.png", scratch_folder(), name);
-    char directory[2048];
+    char directory[4400];
     snprintf(directory, sizeof directory, "%s%s%s", scene[0] == '/' ? "" : project,
              scene[0] == '/' ? "" : "/", scene);
     char *slash = strrchr(directory, '/');

@@ -47,15 +47,13 @@ typedef struct {
 static void look(const Scene *scene, Seen *seen) {
     PatchSetOptions options = patchset_options_default();
     World *world = world_create(scene, &options);
-    CameraRays camera = camera_rays(&scene->camera, WIDTH, HEIGHT);
     for (int y = 0; y < HEIGHT; y++) {
         for (int x = 0; x < WIDTH; x++) {
             Seen *s = &seen[y * WIDTH + x];
-            Ray ray;
+            Ray ray = camera_ray(&scene->camera, WIDTH, HEIGHT, x, y);
             WorldHit hit;
             *s = (Seen){0};
-            if (!camera_ray(&camera, x, y, &ray) ||
-                !world_intersect(world, &ray, 1e-4, INFINITY, RAY_CAMERA, NULL, &hit))
+            if (!world_intersect(world, &ray, 1e-4, INFINITY, RAY_CAMERA, NULL, &hit))
                 continue;
             s->patch = scene->objects[hit.object].type == OBJECT_PATCH;
             s->normal = hit.normal;
@@ -102,9 +100,8 @@ static double rms(const Image *a, const Image *b, const bool *mask) {
 static void converges(void **state) {
     const Row *row = *state;
     const char *scratch = scratch_folder();
-    assert_int_equal(run_command(NULL, "rm -rf '%s/c' && cp -r '%s' '%s/c'", scratch, row->folder,
-                                 scratch),
-                     0);
+    assert_int_equal(
+        run_command(NULL, "rm -rf '%s/c' && cp -r '%s' '%s/c'", scratch, row->folder, scratch), 0);
     char scene_path[4400];
     snprintf(scene_path, sizeof scene_path, "%s/c/%s", scratch, row->scene);
 
@@ -129,7 +126,7 @@ static void converges(void **state) {
             const char *library = arena_printf(arena, "%s/c", scratch);
             options.library_paths = &library;
             options.library_path_count = 1;
-            Seen *seen = ARENA_ARRAY(arena, Seen, WIDTH *HEIGHT);
+            Seen *seen = ARENA_ARRAY(arena, Seen, WIDTH * HEIGHT);
             look(convert_scene(&options, arena), seen);
             for (int i = 0; i < WIDTH * HEIGHT; i++)
                 inside_count += mask[i] = is_inside(seen, i % WIDTH, i / WIDTH);
@@ -156,8 +153,8 @@ int main(void) {
     enum { COUNT = sizeof ROWS / sizeof *ROWS };
     struct CMUnitTest tests[COUNT];
     for (int i = 0; i < COUNT; i++)
-        tests[i] = (struct CMUnitTest){ROWS[i].name, converges, NULL, NULL,
-                                       (void *)(uintptr_t)&ROWS[i]};
+        tests[i] =
+            (struct CMUnitTest){ROWS[i].name, converges, NULL, NULL, (void *)(uintptr_t)&ROWS[i]};
     print_message("RMS in steps of 8 bits; u_steps = v_steps =   2, 3, 4, 5, 6, 7; flatness 0\n");
     return cmocka_run_group_tests_name("convergence", tests, NULL, NULL);
 }

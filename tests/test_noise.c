@@ -69,7 +69,7 @@ static void generators(void **state) {
     const double *want = oracle_run(oracle);
     for (int g = 1; g <= 3; g++)
         for (int i = 0; i < ORACLE_POINTS; i++)
-            oracle_equal(oracle, noise_value(oracle_point(i), g), *want++, "generator", i);
+            oracle_equal(oracle, noise_value(pattern_oracle_point(i), g), *want++, "generator", i);
     oracle_finish(oracle);
 }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Whole pictures against POV-Ray's: with its own triangles (--method facets) they must be the same,
-// so everything around the patch is right. Limit: at most 1 pixel in 10,000 off by more than one step
-// of 8 bits (0.0041 of full range is just above 1/255), since a ray on the very edge of a triangle or
-// a tie between two surfaces may be decided by the last bit.
+// so everything around the patch is right. Limit: at most 1 pixel in 10,000 off by more than one
+// step of 8 bits (0.0041 of full range is just above 1/255), since a ray on the very edge of a
+// triangle or a tie between two surfaces may be decided by the last bit.
 #include "pictures.h"
 
 #include "base/file.h"

@@ -44,9 +44,8 @@ static const Bad BAD[] = {
     {"endless loop", "#while (1)\n#end\n", NULL, 1, "bad.pov:1:"},
     {"endless recursion", "#macro A() A() #end A()\n", NULL, 1, "bad.pov:1:"},
     {"self-include", "#include \"bad.pov\"\n", NULL, 1, "bad.pov:1:"},
-    {"15 points",
-     PATCH_START FOUR FOUR FOUR "<0,0,0> <1,0,0> <2,0,0> pigment { rgb 1 } }\n", NULL, 1,
-     "bad.pov:5:"},
+    {"15 points", PATCH_START FOUR FOUR FOUR "<0,0,0> <1,0,0> <2,0,0> pigment { rgb 1 } }\n", NULL,
+     1, "bad.pov:5:"},
     {"point with 0/0", PATCH_START FOUR FOUR FOUR "<0,0,0> <1,0,0> <2,0,0> <0/0,0,0> }\n", NULL, 1,
      "bad.pov:5:"},
     {"point with 1/0", PATCH_START FOUR FOUR FOUR "<0,0,0> <1,0,0> <2,0,0> <1/0,0,0> }\n", NULL, 1,
@@ -89,7 +88,8 @@ static void refuses_bad_input(void **state) {
     const char *log;
     int status = render_bad(&log, "bad.pov", bad->switches);
     if (status != bad->status || !strstr(log, bad->says))
-        fail_msg("status %d, wanted %d and '%s'; it said:\n%s", status, bad->status, bad->says, log);
+        fail_msg("status %d, wanted %d and '%s'; it said:\n%s", status, bad->status, bad->says,
+                 log);
     check_output(status);
 }
 
@@ -137,8 +137,9 @@ static void refuses_unwritable_places(void **state) {
     write_text("good.pov", CAMERA "sphere { 0, 1 }\n", strlen(CAMERA "sphere { 0, 1 }\n"));
     char cwd[2048];
     assert_non_null(getcwd(cwd, sizeof cwd));
-    int status = run_command(&log, "'%s/build/test/qirender' '+I%s/good.pov' +W16 +H12 "
-                                   "+O/nowhere/at/all/out.png",
+    int status = run_command(&log,
+                             "'%s/build/test/qirender' '+I%s/good.pov' +W16 +H12 "
+                             "+O/nowhere/at/all/out.png",
                              cwd, scratch_folder());
     assert_int_equal(status, 1);
     assert_non_null(strstr(log, "/nowhere/at/all/out.png"));
@@ -149,11 +150,11 @@ static void refuses_unwritable_places(void **state) {
         print_message("skipped: no small file system can be mounted here\n");
         return;
     }
-    status = run_command(&log,
-                         "'%s/build/test/qirender' '+I%s/good.pov' +W300 +H300 +FP "
-                         "'+O%s/tiny/out.ppm'; code=$?; ls '%s/tiny'; umount '%s/tiny'; exit $code",
-                         cwd, scratch_folder(), scratch_folder(), scratch_folder(),
-                         scratch_folder());
+    status =
+        run_command(&log,
+                    "'%s/build/test/qirender' '+I%s/good.pov' +W300 +H300 +FP "
+                    "'+O%s/tiny/out.ppm'; code=$?; ls '%s/tiny'; umount '%s/tiny'; exit $code",
+                    cwd, scratch_folder(), scratch_folder(), scratch_folder(), scratch_folder());
     assert_int_equal(status, 1);
     assert_null(strstr(log, "\nout."));
     assert_non_null(strstr(log, "out.ppm"));
@@ -162,10 +163,9 @@ static void refuses_unwritable_places(void **state) {
 // pov2qi x.pov && qirender x.qi.json is the same picture, byte for byte, as qirender x.pov.
 static void scene_file_gives_same_bytes(void **state) {
     (void)state;
-    static const char *const SCENES[] = {EXAMPLES "objects/bezier.pov",
-                                         EXAMPLES "advanced/teapot/teapot.pov",
-                                         CORPUS "cephalopov/bicubicpatch_basic.pov",
-                                         CORPUS "eaglemode/Splitter.pov"};
+    static const char *const SCENES[] = {
+        EXAMPLES "objects/bezier.pov", EXAMPLES "advanced/teapot/teapot.pov",
+        CORPUS "cephalopov/bicubicpatch_basic.pov", CORPUS "eaglemode/Splitter.pov"};
     char cwd[2048];
     assert_non_null(getcwd(cwd, sizeof cwd));
     for (size_t i = 0; i < sizeof SCENES / sizeof *SCENES; i++) {
@@ -180,8 +180,10 @@ static void scene_file_gives_same_bytes(void **state) {
             &log,
             "cd '%s' && Q='%s/build/test' T='%s' && \"$Q\"/pov2qi %s -o \"$T\"/x.qi.json && "
             "\"$Q\"/pov2qi %s --binary -o \"$T\"/y.qi.json && "
-            "for x in '+I%s +Oa.png' '+I'\"$T\"'/x.qi.json +Ob.png' '+I'\"$T\"'/y.qi.json +Oc.png'; "
-            "do set -- $x; \"$Q\"/qirender \"$1\" \"+O$T/${2#+O}\" +W80 +H60 +A0.3 || exit 9; done; "
+            "for x in '+I%s +Oa.png' '+I'\"$T\"'/x.qi.json +Ob.png' '+I'\"$T\"'/y.qi.json "
+            "+Oc.png'; "
+            "do set -- $x; \"$Q\"/qirender \"$1\" \"+O$T/${2#+O}\" +W80 +H60 +A0.3 || exit 9; "
+            "done; "
             "cmp \"$T\"/a.png \"$T\"/b.png && cmp \"$T\"/a.png \"$T\"/c.png",
             folder, cwd, scratch_folder(), slash + 1, slash + 1, slash + 1);
         if (status != 0)

@@ -43,7 +43,7 @@ static void check_rows(const Rows *rows) {
     for (size_t r = 0; r < rows->count; r++)
         for (int i = 0; i < ORACLE_POINTS; i++) {
             const Pattern *pattern = &rows->items[r].pattern;
-            double have = pattern_value(pattern, pattern_point(pattern, oracle_point(i)));
+            double have = pattern_value(pattern, pattern_point(pattern, pattern_oracle_point(i)));
             oracle_equal(oracle, have, *want++, rows->items[r].text, i);
         }
     oracle_finish(oracle);
@@ -124,7 +124,7 @@ static void check_pigment(const char *text, const Scene *scene, uint32_t pigment
     const double *want = oracle_run(oracle);
     for (int c = 0; c < 5; c++)
         for (int i = 0; i < ORACLE_POINTS; i++) {
-            TexturePoint at = {.p = oracle_point(i)};
+            TexturePoint at = {.p = pattern_oracle_point(i)};
             Color have;
             assert_true(pigment_color(scene, pigment, &at, &have));
             const float values[5] = {have.r, have.g, have.b, have.filter, have.transmit};

@@ -182,6 +182,17 @@ void oracle_hits(const Bezier *patch, Ray ray, double t_min, double t_max, Oracl
     out->count = 0;
     out->doubtful = false;
     hunt(&h, &n, 0.0L, 0.0L, 1.0L, 0);
+    // The angle between ray and surface, unskewed.
+    Net plain = plain_net(patch);
+    for (int i = 0; i < out->count; i++) {
+        Real s[3], su[3], sv[3];
+        eval(&plain, out->hits[i].u, out->hits[i].v, s, su, sv);
+        Real x = su[1] * sv[2] - su[2] * sv[1], y = su[2] * sv[0] - su[0] * sv[2],
+             z = su[0] * sv[1] - su[1] * sv[0];
+        Real across = fabsl(x * d[0] + y * d[1] + z * d[2]);
+        Real both = (x * x + y * y + z * z) * (d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+        out->hits[i].sine = both > 0.0L ? (double)(across / sqrtl(both)) : 0.0;
+    }
     qsort(out->hits, (size_t)out->count, sizeof out->hits[0], by_t);
 }
 
@@ -204,10 +215,15 @@ void oracle_tangents(const Bezier *patch, double u, double v, Vec3 *out_u, Vec3 
 
 double oracle_residual(const Bezier *patch, Ray ray, double t, double u, double v) {
     Net n = plain_net(patch);
-    Real s[3], su[3], sv[3];
+    // Relative to the ray's origin, so that a common offset costs no digits.
+    Real o[3] = {ray.org.x, ray.org.y, ray.org.z}, s[3], su[3], sv[3];
+    for (int i = 0; i <= n.du; i++)
+        for (int j = 0; j <= n.dv; j++)
+            for (int c = 0; c < 3; c++)
+                n.p[i][j][c] -= o[c];
     eval(&n, u, v, s, su, sv);
-    Real x = ray.org.x + (Real)t * ray.dir.x - s[0], y = ray.org.y + (Real)t * ray.dir.y - s[1],
-         z = ray.org.z + (Real)t * ray.dir.z - s[2];
+    Real x = (Real)t * ray.dir.x - s[0], y = (Real)t * ray.dir.y - s[1],
+         z = (Real)t * ray.dir.z - s[2];
     return (double)sqrtl(x * x + y * y + z * z);
 }
 

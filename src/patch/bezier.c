@@ -10,9 +10,12 @@ enum { LINE = BEZIER_MAX_DEGREE + 1 };
 
 // One level of de Casteljau on n + 1 values at any spacing of t; see the header for the form.
 static inline void lerp_level(double *c, int n, double t) {
-    if (t <= 0.5) {
+    if (t < 0.5) {
         for (int i = 0; i < n; i++)
             c[i] = c[i] + t * (c[i + 1] - c[i]);
+    } else if (t == 0.5) {
+        for (int i = 0; i < n; i++)
+            c[i] = 0.5 * c[i] + 0.5 * c[i + 1];
     } else {
         double rest = 1.0 - t;
         for (int i = 0; i < n; i++)
@@ -21,9 +24,12 @@ static inline void lerp_level(double *c, int n, double t) {
 }
 
 static inline void lerp_level3(Vec3 *c, int n, double t) {
-    if (t <= 0.5) {
+    if (t < 0.5) {
         for (int i = 0; i < n; i++)
             c[i] = vec_madd(c[i], t, vec_sub(c[i + 1], c[i]));
+    } else if (t == 0.5) {
+        for (int i = 0; i < n; i++)
+            c[i] = vec_add(vec_scale(c[i], 0.5), vec_scale(c[i + 1], 0.5));
     } else {
         double rest = 1.0 - t;
         for (int i = 0; i < n; i++)

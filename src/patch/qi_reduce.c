@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The QI bounds used to read the parameters off, instead of testing squares.
 //
-// In the ray's frame S(u,v) = (x, y, z) meets the ray where x = y = 0. A linear map of (x, y) makes
-// both close to a parameter of the piece: with J the piece's mean Jacobian and A its inverse,
+// In the ray's skew frame S(u,v) = (x, y, z) meets the ray where x = y = 0. A linear map of (x, y)
+// makes both close to a parameter of the piece: with J the piece's mean Jacobian and A its inverse,
 //     A (x, y) = (u + r(u,v), v + s(u,v)),
 // r and s small. Each remainder is a Bézier function, and lies within its QI net +- eps, so a root
 // has u in -[r], v in -[s]. The remainder shrinks with the square of the piece, so pieces shrink
@@ -47,6 +47,7 @@ typedef struct {
     QiList list;
     int du, dv;
     Net whole;
+    double weight_x, weight_y; // bring x and y to size 1, unless they are rounding and no more
     uint64_t steps, newton, work_limit;
 } Search;
 
@@ -196,7 +197,7 @@ static inline void quasi(double *r, int du, int dv) {
 }
 
 static inline Remainder bound_remainder(const Net *p, int du, int dv, Form f, double zu, double zv,
-                                        double slack) {
+                                        const QiFrame *frame) {
     double r[POINTS], second[2], slope[2];
     for (int i = 0; i <= du; i++) {
         double base = f.au * ((double)i / du);
@@ -208,8 +209,8 @@ static inline Remainder bound_remainder(const Net *p, int du, int dv, Form f, do
     differences(r, du, dv, second, slope);
     quasi(r, du, dv);
     // Rounding: that of the coordinates, and of the parameters' share.
-    double eps = zu * second[0] + zv * second[1] + (fabs(f.bx) + fabs(f.by)) * slack +
-                 16.0 * DBL_EPSILON * (fabs(f.au) + fabs(f.av));
+    double eps = zu * second[0] + zv * second[1] + fabs(f.bx) * frame->slack_x +
+                 fabs(f.by) * frame->slack_y + 16.0 * DBL_EPSILON * (fabs(f.au) + fabs(f.av));
     Span s = span_of(r, (du + 1) * (dv + 1));
     return (Remainder){{s.low - eps, s.high + eps}, slope[0] + slope[1]};
 }
@@ -318,10 +319,21 @@ static void add_found(Search *q, Point p, double u, double v, BezierRect rect, i
     qi_list_add(&q->list, found);
 }
 
+// Distance from the ray as the weights measure it.
+static double off_ray(const Search *q, Point p) {
+    return fabs(p.x) * q->weight_x + fabs(p.y) * q->weight_y;
+}
+
+static bool on_ray(const Search *q, Point p, double slacks) {
+    return fabs(p.x) <= slacks * q->frame.slack_x && fabs(p.y) <= slacks * q->frame.slack_y;
+}
+
+// A root with its rounding, in slacks: what Newton may end on and still be on a root.
+static const double ROOT_SLACKS = 4.0;
+
 // The only root that the piece `rect` can have: true if Newton ends on it, and then it is reported.
-// gain_u, gain_v: parameter error per unit of x and y error, by the forms that proved it single.
-static bool sharpen_single(Search *q, BezierRect rect, double gain_u, double gain_v) {
-    const double accept = 4.0 * q->frame.slack;
+// error_u, error_v: how far off ROOT_SLACKS can move it, by the forms that proved it single.
+static bool sharpen_single(Search *q, BezierRect rect, double error_u, double error_v) {
     double u = 0.5 * (rect.u0 + rect.u1), v = 0.5 * (rect.v0 + rect.v1);
     Point p = eval(q, u, v);
     // At 2/3 a step throughout, 96 steps would still take any start to 2^-53 of the piece.
@@ -333,28 +345,29 @@ static bool sharpen_single(Search *q, BezierRect rect, double gain_u, double gai
             break;
         Point next = eval(q, nu, nv);
         q->newton++;
-        bool small = fabs(p.x) <= accept && fabs(p.y) <= accept;
-        if (small && fabs(next.x) + fabs(next.y) >= fabs(p.x) + fabs(p.y))
+        if (on_ray(q, p, ROOT_SLACKS) && off_ray(q, next) >= off_ray(q, p))
             break; // as near as rounding lets it come
         u = nu, v = nv, p = next;
-        if (fabs(p.x) + fabs(p.y) <= 0.0625 * q->frame.slack)
+        if (on_ray(q, p, 0.0625))
             break;
     }
-    if (!(fabs(p.x) <= accept && fabs(p.y) <= accept))
+    if (!on_ray(q, p, ROOT_SLACKS))
         return false;
-    double eu = 2.0 * gain_u * accept, ev = 2.0 * gain_v * accept;
     double det = p.xu * p.yv - p.xv * p.yu;
-    add_found(q, p, u, v, (BezierRect){u - eu, u + eu, v - ev, v + ev}, det > 0.0 ? 1 : -1);
+    add_found(q, p, u, v, (BezierRect){u - error_u, u + error_u, v - error_v, v + error_v},
+              det > 0.0 ? 1 : -1);
     return true;
 }
 
 // A few damped least-squares steps towards the ray inside rect: they find a double or multiple root
 // too, or a point of a whole curve of them. Keeps what is nearer to the ray and in range.
 static Point sharpen_any(Search *q, BezierRect rect, Point p, double *u, double *v) {
+    double wx = q->weight_x, wy = q->weight_y;
     for (int n = 0; n < 8; n++) {
-        double a = p.xu * p.xu + p.yu * p.yu, b = p.xu * p.xv + p.yu * p.yv,
-               c = p.xv * p.xv + p.yv * p.yv, damp = 1e-12 * (a + c);
-        double gu = p.xu * p.x + p.yu * p.y, gv = p.xv * p.x + p.yv * p.y;
+        double x = wx * p.x, xu = wx * p.xu, xv = wx * p.xv, y = wy * p.y, yu = wy * p.yu,
+               yv = wy * p.yv;
+        double a = xu * xu + yu * yu, b = xu * xv + yu * yv, c = xv * xv + yv * yv;
+        double gu = xu * x + yu * y, gv = xv * x + yv * y, damp = 1e-12 * (a + c);
         double det = (a + damp) * (c + damp) - b * b;
         double nu = clamp(*u - ((c + damp) * gu - b * gv) / det, rect.u0, rect.u1);
         double nv = clamp(*v - ((a + damp) * gv - b * gu) / det, rect.v0, rect.v1);
@@ -362,7 +375,8 @@ static Point sharpen_any(Search *q, BezierRect rect, Point p, double *u, double 
             break;
         Point next = eval(q, nu, nv);
         q->newton++;
-        if (!(fabs(next.x) + fabs(next.y) < fabs(p.x) + fabs(p.y)) || !in_range(q, next.z))
+        if (!(off_ray(q, next) < off_ray(q, p)) || !in_range(q, next.z) ||
+            !(next.x * next.x + next.y * next.y <= q->frame.tolerance * q->frame.tolerance))
             break;
         *u = nu, *v = nv, p = next;
     }
@@ -422,14 +436,18 @@ typedef struct {
     bool along_u, low_first;
 } Rest;
 
-// The two forms of a piece: A (x, y) where the mean Jacobian allows it (true), else the rotation.
-static inline bool choose_forms(double xu, double yu, double xv, double yv, Form forms[2]) {
+// The two forms of a piece: A (x, y) where the mean Jacobian allows it (true), else the rotation,
+// both after x and y were brought to one size.
+static inline bool choose_forms(const Search *q, double xu, double yu, double xv, double yv,
+                                Form forms[2]) {
+    double wx = q->weight_x, wy = q->weight_y;
+    xu *= wx, xv *= wx, yu *= wy, yv *= wy;
     double det = xu * yv - xv * yu;
     double uu = xu * xu + yu * yu, vv = xv * xv + yv * yv;
     // Tangents at less than about 3 degrees to each other: A would stretch the remainder 20 times.
     if (det * det > 0.0025 * uu * vv && isfinite(1.0 / det)) {
-        forms[0] = (Form){yv / det, -xv / det, 1.0, 0.0};
-        forms[1] = (Form){-yu / det, xu / det, 0.0, 1.0};
+        forms[0] = (Form){yv / det * wx, -xv / det * wy, 1.0, 0.0};
+        forms[1] = (Form){-yu / det * wx, xu / det * wy, 0.0, 1.0};
         return true;
     }
     double gx = uu >= vv ? xu : xv, gy = uu >= vv ? yu : yv, length = sqrt(larger(uu, vv));
@@ -437,8 +455,8 @@ static inline bool choose_forms(double xu, double yu, double xv, double yv, Form
         gx = length = 1.0, gy = 0.0;
     gx /= length;
     gy /= length;
-    forms[0] = (Form){gx, gy, gx * xu + gy * yu, gx * xv + gy * yv};
-    forms[1] = (Form){-gy, gx, gx * yu - gy * xu, gx * yv - gy * xv};
+    forms[0] = (Form){gx * wx, gy * wy, gx * xu + gy * yu, gx * xv + gy * yv};
+    forms[1] = (Form){-gy * wx, gx * wy, gx * yu - gy * xu, gx * yv - gy * xv};
     return false;
 }
 
@@ -449,13 +467,22 @@ static inline bool within(const Net *p, int count, double radius) {
     return true;
 }
 
-// Longest difference of neighbours, in the larger coordinate.
-static inline void lengths(const Net *p, int du, int dv, double *along_u, double *along_v) {
+// Longest difference of neighbours, in the larger coordinate by weight.
+static inline void lengths(const Search *q, const Net *p, int du, int dv, double *along_u,
+                           double *along_v) {
     double none[2], x[2], y[2];
     differences(p->x, du, dv, none, x);
     differences(p->y, du, dv, none, y);
-    *along_u = larger(x[0], y[0]);
-    *along_v = larger(x[1], y[1]);
+    *along_u = larger(x[0] * q->weight_x, y[0] * q->weight_y);
+    *along_v = larger(x[1] * q->weight_x, y[1] * q->weight_y);
+}
+
+// Which half is met first? Where J is singular the first form vanishes along a curve of the piece,
+// and depth counts along that curve: a ray in the surface must be followed from its near end.
+static inline bool nearer_low(bool along_u, bool regular, Form f, double zu, double zv) {
+    if (along_u)
+        return regular || f.av == 0.0 ? zu >= 0.0 : (zu * f.av - zv * f.au) * f.av >= 0.0;
+    return regular || f.au == 0.0 ? zv >= 0.0 : (zv * f.au - zu * f.av) * f.au >= 0.0;
 }
 
 static inline Step step_of(Search *q, BezierRect r, int du, int dv, Rest *rest) {
@@ -470,12 +497,12 @@ static inline Step step_of(Search *q, BezierRect r, int du, int dv, Rest *rest) 
 
     Form forms[2];
     Remainder bounds[2];
-    bool regular = choose_forms(trend_u(p.x, du, dv), trend_u(p.y, du, dv), trend_v(p.x, du, dv),
+    bool regular = choose_forms(q, trend_u(p.x, du, dv), trend_u(p.y, du, dv), trend_v(p.x, du, dv),
                                 trend_v(p.y, du, dv), forms);
     double zu = quasi_z_infinity(du), zv = quasi_z_infinity(dv);
     Span u = {0.0, 1.0}, v = {0.0, 1.0};
     for (int k = 0; k < 2; k++) {
-        bounds[k] = bound_remainder(&p, du, dv, forms[k], zu, zv, q->frame.slack);
+        bounds[k] = bound_remainder(&p, du, dv, forms[k], zu, zv, &q->frame);
         if (!clip(forms[k].au, forms[k].av, bounds[k].span, v, &u) ||
             !clip(forms[k].av, forms[k].au, bounds[k].span, u, &v))
             return STEP_DONE;
@@ -485,11 +512,15 @@ static inline Step step_of(Search *q, BezierRect r, int du, int dv, Rest *rest) 
     narrow(&left.v0, &left.v1, v);
     rest->rect = left;
     double slope = larger(bounds[0].slope, bounds[1].slope);
-    if (regular && slope <= LIKELY_SLOPE &&
-        (sharpen_single(q, left, (fabs(forms[0].bx) + fabs(forms[0].by)) * (r.u1 - r.u0),
-                        (fabs(forms[1].bx) + fabs(forms[1].by)) * (r.v1 - r.v0)) ||
-         slope <= CERTAIN_SLOPE))
-        return STEP_DONE;
+    if (regular && slope <= LIKELY_SLOPE) {
+        double sx = 2.0 * ROOT_SLACKS * q->frame.slack_x, sy = 2.0 * ROOT_SLACKS * q->frame.slack_y;
+        double error_u = (fabs(forms[0].bx) * sx + fabs(forms[0].by) * sy) * (r.u1 - r.u0);
+        double error_v = (fabs(forms[1].bx) * sx + fabs(forms[1].by) * sy) * (r.v1 - r.v0);
+        // Twice the rounding, times 1 / (1 - L).
+        double stretch = 1.0 / (1.0 - slope);
+        if (sharpen_single(q, left, stretch * error_u, stretch * error_v) || slope <= CERTAIN_SLOPE)
+            return STEP_DONE;
+    }
     double wu = left.u1 - left.u0, wv = left.v1 - left.v0;
     bool least = wu <= LEAST_WIDTH && wv <= LEAST_WIDTH;
     // A width at its least counts as not shrinking, so that each such step halves what can shrink.
@@ -501,11 +532,12 @@ static inline Step step_of(Search *q, BezierRect r, int du, int dv, Rest *rest) 
         return STEP_DONE;
 
     double along_u, along_v;
-    lengths(&p, du, dv, &along_u, &along_v);
+    lengths(q, &p, du, dv, &along_u, &along_v);
     along_u *= u.high - u.low;
     along_v *= v.high - v.low;
     rest->along_u = wv <= LEAST_WIDTH || (wu > LEAST_WIDTH && along_u >= along_v);
-    rest->low_first = (rest->along_u ? trend_u(p.z, du, dv) : trend_v(p.z, du, dv)) >= 0.0;
+    rest->low_first =
+        nearer_low(rest->along_u, regular, forms[0], trend_u(p.z, du, dv), trend_v(p.z, du, dv));
     return STEP_HALVE;
 }
 
@@ -520,7 +552,7 @@ static bool first_half_nearer(const Search *q, const BezierRect half[2]) {
     double off[2];
     for (int k = 0; k < 2; k++) {
         Point p = eval(q, 0.5 * (half[k].u0 + half[k].u1), 0.5 * (half[k].v0 + half[k].v1));
-        off[k] = p.x * p.x + p.y * p.y;
+        off[k] = off_ray(q, p);
     }
     return off[0] <= off[1];
 }
@@ -555,13 +587,21 @@ static void search(Search *q, BezierRect rect) {
     }
 }
 
+// A coordinate below a thousand times its own rounding keeps that size: it must not look important.
+static double weight_of(double side, double slack) {
+    double size = larger(side, 1024.0 * slack);
+    return size > DBL_MIN ? 1.0 / size : 1.0;
+}
+
 static int intersect(const Bezier *patch, const QiQuery *query, QiMode mode, QiStats *stats,
                      QiSink sink, void *context) {
     QiFound found[QI_MAX_HITS];
     Search q;
     Bezier framed;
-    if (!qi_frame_init(&q.frame, patch, query, &framed))
+    if (!qi_frame_init(&q.frame, FRAME_SKEW, patch, query, &framed))
         return 0;
+    q.weight_x = weight_of(q.frame.side_x, q.frame.slack_x);
+    q.weight_y = weight_of(q.frame.side_y, q.frame.slack_y);
     q.du = patch->du;
     q.dv = patch->dv;
     for (int k = 0; k < bezier_count(patch); k++) {

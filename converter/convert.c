@@ -5,6 +5,7 @@
 
 #include "converter/language.h"
 
+#include <ctype.h>
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -94,6 +95,13 @@ static Converter *start(const RenderOptions *options, Arena *arena) {
     return cv;
 }
 
+static bool is_blank(const Source *source) {
+    size_t i = 0;
+    while (i < source->size && isspace((unsigned char)source->text[i]))
+        i++;
+    return i == source->size;
+}
+
 Scene *convert_scene(const RenderOptions *options, Arena *arena) {
     if (!options->input)
         die("no input file");
@@ -101,11 +109,14 @@ Scene *convert_scene(const RenderOptions *options, Arena *arena) {
     Converter *cv = start(options, arena);
     declare_initial(cv);
     const Source *source = source_open(cv, options->input, FILE_SCENE, &(Loc){0});
+    const Loc start_of_file = {.file = source->name, .line = 1, .column = 1};
+    if (is_blank(source))
+        die_at(&start_of_file, "the file is empty: there is no scene in it");
     cv->utf8 = source->utf8;
     push_file(cv, source, NULL);
     parse_scene_statements(cv);
     if (!cv->version_set)
-        warn("no #version in '%s': read as version 3.62 where the picture depends on it",
-             source->name);
+        note_at(&start_of_file,
+                "no #version: read as version 3.62 where the picture depends on it");
     return emit_scene(cv);
 }

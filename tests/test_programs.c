@@ -53,7 +53,7 @@ static const Bad BAD[] = {
     {"no camera is POV-Ray's camera", "sphere { 4*z, 1 pigment { rgb 1 } }\n", NULL, 0, ""},
     {"nothing to see", CAMERA, NULL, 1, "no objects"},
     {"only a sky", "sky_sphere { pigment { rgb 1 } }\n", NULL, 0, "no objects"},
-    {"width 0", CAMERA, "+W0 +H12", 1, "idth"},
+    {"width 0", CAMERA, "+W0 +H12", 1, "must be at least 1"},
     {"too large", CAMERA, "+W1000000 +H1000000", 1, "1000000"},
     {"unknown switch", CAMERA, "+W16 +H12 --methd qi", 2, "--method"},
     {"unknown method", CAMERA, "+W16 +H12 --method fast", 2, "qi-paper"},
@@ -85,6 +85,8 @@ static void refuses_bad_input(void **state) {
     unlink(path);
     if (bad->text)
         write_text("bad.pov", bad->text, strlen(bad->text));
+    snprintf(path, sizeof path, "%s/out.png", scratch_folder());
+    unlink(path);
     const char *log;
     int status = render_bad(&log, "bad.pov", bad->switches);
     if (status != bad->status || !strstr(log, bad->says))

@@ -107,9 +107,9 @@ static void test_comparison_sees(void **state) {
     Rng a = {11}, b = {11};
     Scene *one = random_scene(&a, arena), *two = random_scene(&b, arena);
     assert_null(scene_difference(one, two));
-    // All members of a finish but the two bools and their padding are floats.
+    // The members of a finish before the first that needs padding are floats.
     unsigned char *bytes = (unsigned char *)&two->textures[0].layers[0].finish;
-    for (size_t i = 0; i < offsetof(Finish, reflection_fresnel); i++) {
+    for (size_t i = 0; i < offsetof(Finish, reflection_metallic); i++) {
         bytes[i] ^= 1;
         assert_non_null(scene_difference(one, two));
         bytes[i] ^= 1;

@@ -16,32 +16,51 @@ bool reference_available(void) {
     return found != 0;
 }
 
-Image *reference_render(Arena *arena, const char *scene, const char *switches) {
-    char folder[] = "/tmp/qipov-test-XXXXXX";
-    if (!mkdtemp(folder))
+struct Reference {
+    Arena *arena;
+    char folder[64];
+    const char *switches;
+    FILE *process;
+};
+
+Reference *reference_begin(Arena *arena, const char *scene, const char *switches) {
+    Reference *r = ARENA_NEW(arena, Reference);
+    r->arena = arena;
+    r->switches = switches;
+    strcpy(r->folder, "/tmp/qipov-test-XXXXXX");
+    if (!mkdtemp(r->folder))
         die("cannot make a temporary folder");
-    const char *source = arena_printf(arena, "%s/scene.pov", folder);
-    OutputFile *out = file_begin(source);
+    OutputFile *out = file_begin(arena_printf(arena, "%s/scene.pov", r->folder));
     fputs(scene, file_stream(out));
     file_commit(out);
+    fflush(NULL);
+    r->process = popen(arena_printf(arena,
+                                    "cd %s && povray +Iscene.pov +Oscene.png -D -P %s "
+                                    ">log.txt 2>&1",
+                                    r->folder, switches),
+                       "r");
+    if (!r->process)
+        die("cannot start povray");
+    return r;
+}
 
-    const char *command = arena_printf(
-        arena, "cd %s && povray +Iscene.pov +Oscene.png -D -P %s >log.txt 2>&1", folder, switches);
-    const char *result = arena_printf(arena, "%s/scene.png", folder);
-    int status = system(command);
+Image *reference_end(Reference *r) {
+    int status = pclose(r->process);
     Image *image = NULL;
     const char *log = NULL;
     if (status == 0)
-        image = image_read(arena, result);
+        image = image_read(r->arena, arena_printf(r->arena, "%s/scene.png", r->folder));
     else
-        log = file_read(arena, arena_printf(arena, "%s/log.txt", folder), NULL, NULL);
-
-    const char *remove_all = arena_printf(arena, "rm -r %s", folder);
-    if (system(remove_all) != 0)
-        fprintf(stderr, "%s was left behind\n", folder);
+        log = file_read(r->arena, arena_printf(r->arena, "%s/log.txt", r->folder), NULL, NULL);
+    if (system(arena_printf(r->arena, "rm -r %s", r->folder)) != 0)
+        fprintf(stderr, "%s was left behind\n", r->folder);
     if (!image)
-        die("povray %s failed:\n%s", switches, log ? log : "");
+        die("povray %s failed:\n%s", r->switches, log ? log : "");
     return image;
+}
+
+Image *reference_render(Arena *arena, const char *scene, const char *switches) {
+    return reference_end(reference_begin(arena, scene, switches));
 }
 
 size_t reference_mismatches(const Image *a, const Image *b, char *first, size_t room) {

@@ -217,6 +217,8 @@ static void wrong_words(void **state) {
         {"Declare=N=x", "'Declare=N=x'", "Declare=Name=number"},
         {"File_Gamma=0", "'File_Gamma=0'", "positive"},
         {"+MV9", "'+MV9'", "3.7"},
+        {"+BS3", "'+BS3'", "at least 4"},
+        {"+BS", "'+BS'", "at least 4"},
         {"+Knan", "'+Knan'", "+K0.5"},
         {"+KFF10", "'+KFF10'", "Final_Frame"},
         {"+HIx.inc", "'+HIx.inc'", "Include_Header"},

@@ -139,28 +139,34 @@ static Image *render_balls(Arena *arena, const Case *c) {
     return image;
 }
 
-static void compare_with_reference(const Case *c) {
+static void compare_all(const Case *cases, size_t count) {
+    enum { MOST = 16 };
+    assert_true(count <= MOST);
     if (!reference_available()) {
         print_message("skipped: povray is not installed\n");
         skip();
     }
     Arena *arena = arena_create();
-    const char *switches =
-        arena_printf(arena, "+W%d +H%d +FN16 %s", c->width, c->height, c->switches);
-    Image *theirs = reference_render(arena, scene_text(arena, c->gamma, c->camera), switches);
-    Image *ours = render_balls(arena, c);
-    char first[128];
-    size_t off = reference_mismatches(ours, theirs, first, sizeof first);
-    if (off)
-        print_message("%s, gamma %s: %zu values differ; ours, POV-Ray's at %s\n", switches,
-                      c->gamma, off, first);
-    assert_int_equal(off, 0);
+    Reference *theirs[MOST];
+    for (size_t i = 0; i < count; i++) {
+        const Case *c = &cases[i];
+        theirs[i] = reference_begin(
+            arena, scene_text(arena, c->gamma, c->camera),
+            arena_printf(arena, "+W%d +H%d +FN16 %s", c->width, c->height, c->switches));
+    }
+    size_t wrong = 0;
+    for (size_t i = 0; i < count; i++) {
+        const Case *c = &cases[i];
+        char first[128];
+        size_t off = reference_mismatches(render_balls(arena, c), reference_end(theirs[i]), first,
+                                          sizeof first);
+        if (off)
+            print_message("%s, %d x %d, gamma %s: %zu values differ; ours, POV-Ray's at %s\n",
+                          c->switches, c->width, c->height, c->gamma, off, first);
+        wrong += off;
+    }
+    assert_int_equal(wrong, 0);
     arena_destroy(arena);
-}
-
-static void compare_all(const Case *cases, size_t count) {
-    for (size_t i = 0; i < count; i++)
-        compare_with_reference(&cases[i]);
 }
 #define COMPARE_ALL(cases) compare_all(cases, sizeof cases / sizeof *cases)
 

@@ -10,7 +10,7 @@
 
 #include <errno.h>
 #include <fcntl.h>
-#include <math.h>
+#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -241,8 +241,15 @@ static int check_words(const RenderOptions *o) {
     return 0;
 }
 
+static void on_interrupt(int number) {
+    (void)number;
+    _exit(2);
+}
+
 int main(int argc, char **argv) {
     diag_program("qicompare");
+    signal(SIGINT, on_interrupt);
+    signal(SIGTERM, on_interrupt);
     Arena *arena = arena_create();
     RenderOptions options = options_default();
     if (!options_parse(PROGRAM_QICOMPARE, argc, argv, arena, &options))

@@ -65,8 +65,8 @@ ImageDifference image_compare(const Image *a, const Image *b, double fail, doubl
 
 // The largest difference over the channels of each pixel, as a picture of one channel.
 Image *image_difference(Arena *arena, const Image *a, const Image *b);
-// False colours for values 0..1 of a one-channel picture: dark violet to pale yellow, each step
-// lighter than the one before.
+// False colours for values 0..1 of a one-channel picture: black over violet and orange to pale
+// yellow, each step lighter than the one before. Linear values, 32 bits.
 Image *image_false_color(Arena *arena, const Image *values);
 
 // A picture as PNG bytes in memory (8 bits), for data: URLs.

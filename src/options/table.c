@@ -153,6 +153,15 @@ static bool apply_clock(Parse *parse, const OptionRow *row, bool on, const char 
     return true;
 }
 
+static bool apply_block_size(Parse *parse, const OptionRow *row, bool on, const char *value) {
+    (void)row, (void)on;
+    int size;
+    if (!option_integer(value, &size) || size < 4)
+        return complain(parse, "tiles are at least 4 pixels wide, as in +BS32");
+    parse->options->block_size = size;
+    return true;
+}
+
 static bool apply_version(Parse *parse, const OptionRow *row, bool on, const char *value) {
     (void)row, (void)on;
     double version;
@@ -295,7 +304,7 @@ const OptionRow option_rows[] = {
     HEADING("The run"),
     {OPTION_INT, "WT", "Work_Threads", NULL, "n", IN_ALL, FIELD(threads), CLIP(0, 512),
      .help = "threads (0: as many as there are cores); the picture is the same"},
-    {OPTION_INT, "BS", "Render_Block_Size", NULL, "n", DRAWS, FIELD(block_size), CLIP(4, 1 << 20),
+    {OPTION_SPECIAL, "BS", "Render_Block_Size", NULL, "n", DRAWS, .apply = apply_block_size,
      .help = "side of a tile (32); method 1 of anti-aliasing depends on it"},
     {OPTION_FLAG, "V", "Verbose", NULL, NULL, IN_ALL, FIELD(verbose),
      .help = "progress and statistics (default); -V silent"},

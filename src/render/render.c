@@ -176,14 +176,11 @@ Image *render_scene(const Scene *scene, const RenderOptions *o, Arena *arena,
         stats->patches += scene->objects[i].type == OBJECT_PATCH;
     stats->prepare_seconds = progress_seconds() - start;
 
-    // Where nothing is rendered there is nothing: transparent when the file can say so.
+    // What lies outside the area stays as it is: black, and opaque.
     start = progress_seconds();
     Arena *scratch = arena_create();
-    size_t pixels = (size_t)o->width * (size_t)o->height;
     Job job = {.scene = scene, .options = o, .shading = shading, .area = render_area(o)};
-    job.picture = ARENA_ARRAY(scratch, Color, pixels);
-    for (size_t i = 0; o->alpha && i < pixels; i++)
-        job.picture[i].transmit = 1.0f;
+    job.picture = ARENA_ARRAY(scratch, Color, (size_t)o->width * (size_t)o->height);
 
     // Render the tiles.
     int wide = job.area.right - job.area.left, high = job.area.bottom - job.area.top;

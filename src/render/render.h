@@ -28,7 +28,7 @@ PixelRect render_area(const RenderOptions *options);
 
 // Renders scene at options' size; the pixels are encoded and quantised for the output format
 // (film.h) and live in arena, and *write gets what the file's header needs. What lies outside the
-// area is black, with +UA transparent.
+// area is black, and opaque even with +UA, as in POV-Ray.
 Image *render_scene(const Scene *scene, const RenderOptions *options, Arena *arena,
                     ImageWriteOptions *write, RenderStats *stats);
 

@@ -53,8 +53,8 @@ static void put_head(FILE *out, const ComparePage *page) {
     fprintf(out, ", %d &#215; %d pixels. <span class=\"verdict %s\">", image->width, image->height,
             page->verdict);
     html_text(out, page->verdict);
-    fprintf(out, "</span> at a limit of %g for %g&nbsp;%% of the pixels.</p>\n</header>\n",
-            page->fail, page->fail_percent);
+    fprintf(out, "</span>: %g&nbsp;%% of the pixels may differ by more than %g.</p>\n</header>\n",
+            page->fail_percent, page->fail);
 }
 
 static void put_figure(FILE *out, const char *name, const char *value, const char *note) {
@@ -125,8 +125,7 @@ static Image *scale_colors(Arena *arena) {
     for (int i = 0; i < STEPS; i++)
         values.pixels[i] = (float)i / (STEPS - 1);
     Image *colors = image_false_color(arena, &values);
-    colors->bits = 8;
-    return colors;
+    return heat_shown(arena, colors);
 }
 
 static void put_counts(FILE *out, const Image *differences, const Image *scale) {
@@ -256,7 +255,6 @@ void compare_page_write(const ComparePage *page, const char *path) {
     Arena *arena = arena_create();
     const Image *differences = image_difference(arena, page->side[0].image, page->side[1].image);
     Image *map = heat_map(arena, differences), *scale = scale_colors(arena);
-    map->bits = 8; // its colours are for the screen as they are
 
     OutputFile *file = file_begin(path);
     FILE *out = file_stream(file);

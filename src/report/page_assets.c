@@ -53,7 +53,8 @@ const char page_style[] =
     ".stage[data-mode=blink].first figure+figure{visibility:hidden}\n"
     ".under{display:none;align-items:center;gap:1rem;margin-top:.6rem;font-size:.9rem;"
     "color:var(--soft)}.js .under{display:flex}.under input{flex:1;min-width:0;"
-    "accent-color:var(--accent)}.under b{color:var(--ink);font-weight:600}\n"
+    "accent-color:var(--accent)}.under b{color:var(--ink);font-weight:600}.under b:empty,.under "
+    "span:empty{display:none}\n"
     // The scale is also the table of counts.
     ".scroll{overflow-x:auto}table{border-collapse:collapse;font-variant-numeric:tabular-nums;"
     "width:100%}\n"

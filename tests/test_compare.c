@@ -1,0 +1,358 @@
+// SPDX-License-Identifier: MIT
+// qicompare as a program: exit status and figures for pictures made here, its page (self-contained,
+// nothing escapes, the pictures in it are the pictures), and one scene through both renderers.
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+
+#include <cmocka.h>
+
+#include "base/file.h"
+#include "image/image.h"
+#include "reference.h"
+#include "report/heat.h"
+#include "report/html.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#define PROGRAM "build/test/qicompare"
+
+typedef struct {
+    Arena *arena;
+    char folder[64], root[512];
+} Place;
+
+static int create(void **state) {
+    Place *place = calloc(1, sizeof *place);
+    place->arena = arena_create();
+    strcpy(place->folder, "/tmp/qipov-compare-XXXXXX");
+    *state = place;
+    return mkdtemp(place->folder) && getcwd(place->root, sizeof place->root) ? 0 : 1;
+}
+
+static int destroy(void **state) {
+    Place *place = *state;
+    char command[128];
+    snprintf(command, sizeof command, "rm -rf %s", place->folder);
+    int status = system(command);
+    arena_destroy(place->arena);
+    free(place);
+    return status;
+}
+
+static const char *in(const Place *place, const char *name) {
+    return arena_printf(place->arena, "%s/%s", place->folder, name);
+}
+
+// Runs qicompare in the folder; what it prints (both streams) goes to *said.
+static int compare(const Place *place, const char *words, const char **said) {
+    if (access(PROGRAM, X_OK) != 0) {
+        print_message("skipped: " PROGRAM " is not built\n");
+        skip();
+    }
+    const char *command = arena_printf(
+        place->arena, "cd %s && ASAN_OPTIONS=detect_leaks=0 %s/" PROGRAM " %s >said.txt 2>&1",
+        place->folder, place->root, words);
+    int status = system(command);
+    *said = file_read(place->arena, in(place, "said.txt"), NULL, NULL);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+static Image *plain(Arena *arena, int width, int height, float value) {
+    Image *image = ARENA_NEW(arena, Image);
+    *image = (Image){.width = width, .height = height, .channels = 3, .bits = 8};
+    size_t count = (size_t)width * (size_t)height * 3;
+    image->pixels = ARENA_ARRAY(arena, float, count);
+    for (size_t i = 0; i < count; i++)
+        image->pixels[i] = value;
+    return image;
+}
+
+// one.png is grey; in two.png one pixel of 100 is off by 51 steps (0.2) and one by a single step.
+static void write_pictures(const Place *place) {
+    const ImageWriteOptions o = image_write_options_default();
+    Image *image = plain(place->arena, 10, 10, 102.0f / 255.0f);
+    image_write(in(place, "one.png"), image, &o);
+    image->pixels[3 * 34 + 2] = 153.0f / 255.0f;
+    image->pixels[0] = 103.0f / 255.0f;
+    image_write(in(place, "two.png"), image, &o);
+    image_write(in(place, "small.png"), plain(place->arena, 9, 10, 0.4f), &o);
+}
+
+// ---- tests
+// ----------------------------------------------------------------------------------------
+
+static void exit_status(void **state) {
+    Place *place = *state;
+    write_pictures(place);
+    const struct {
+        const char *words;
+        int status;
+        const char *says;
+    } cases[] = {
+        {"one.png one.png", 0, "PASS"},
+        {"one.png two.png", 1, "FAILURE"},
+        {"one.png two.png --fail 0.21", 0, "WARNING"},
+        {"one.png two.png --fail 0.21 --warn 0.21", 0, "PASS"},
+        {"one.png two.png --failpercent 1.9", 1, "FAILURE"},
+        {"one.png two.png --failpercent 2", 0, "WARNING"},
+        {"one.png two.png --failpercent 2 --warnpercent=2", 0, "PASS"},
+        {"one.png small.png", 1, "different sizes"},
+        {"one.png missing.png", 1, "missing.png"},
+        {"said.txt one.png", 2, "said.txt"},
+        {"one.png", 2, "two pictures"},
+        {"one.png two.png scene.pov", 2, "not both"},
+        {"scene.qi.json", 2, ".pov"},
+        {"nowhere.pov", 1, "nowhere.pov"},
+        {"--fali 1 one.png two.png", 2, "--fail"},
+        {"one.png two.png -o said.txt", 1, "said.txt"},
+        {"--help", 0, "usage: qicompare"},
+        {"--version", 0, "qicompare"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        const char *said;
+        int status = compare(place, cases[i].words, &said);
+        if (status != cases[i].status || !strstr(said, cases[i].says))
+            fail_msg("%s: status %d, said: %s", cases[i].words, status, said);
+    }
+}
+
+static void figures_as_printed(void **state) {
+    Place *place = *state;
+    write_pictures(place);
+    const char *said;
+    compare(place, "one.png two.png --fail 0.1", &said);
+    double mean = (51.0 + 1.0) / 255 / 300, rms = sqrt((51.0 * 51 + 1) / 300) / 255;
+    const char *const lines[] = {
+        arena_printf(place->arena, "Mean error = %.6g\n", mean),
+        arena_printf(place->arena, "RMS error = %.6g\n", rms),
+        arena_printf(place->arena, "Peak SNR = %.4g\n", 20 * log10(1 / rms)),
+        "Max error  = 0.2 @ (4, 3, channel 2)\n",
+        "1 pixels (1%) off by more than one step",
+        "1 pixels (1%) over 0.1\n",
+        "2 pixels (2%) over 1e-06\n",
+    };
+    for (size_t i = 0; i < sizeof lines / sizeof *lines; i++)
+        if (!strstr(said, lines[i]))
+            fail_msg("'%s' is not in: %s", lines[i], said);
+}
+
+// The scale doubles every eighth; a class holds what its name says.
+static void scale_and_classes(void **state) {
+    (void)state;
+    for (int k = 0; k <= 8; k++)
+        assert_true(fabs(heat_scale((exp2(k) - 1) / 255) - k / 8.0) < 1e-12);
+    assert_true(heat_scale(-1) == 0 && heat_scale(7) == 1);
+    assert_int_equal(heat_class(0), 0);
+    assert_int_equal(heat_class(0.4 / 255), 1);
+    for (int steps = 1; steps <= 255; steps++) {
+        int expected = 2;
+        for (int s = steps; s > 1; s /= 2)
+            expected++;
+        // As a difference of two values read from files: in float.
+        float d = (float)(steps + 0) / 255.0f - 0.0f;
+        assert_int_equal(heat_class((double)d), expected);
+        float high = 1.0f, low = (float)(255 - steps) / 255.0f;
+        assert_int_equal(heat_class((double)(high - low)), expected);
+    }
+    assert_int_equal(heat_class(100), HEAT_CLASSES - 1);
+    for (int i = 0; i < HEAT_CLASSES; i++)
+        assert_int_equal(heat_class(heat_class_middle(i)), i);
+}
+
+static void cuts_stay_inside(void **state) {
+    Place *place = *state;
+    Image *image = plain(place->arena, 50, 20, 0);
+    for (int i = 0; i < 50 * 20; i++)
+        image->pixels[3 * i] = (float)i;
+    const int points[][4] = {{0, 0, 0, 0}, {49, 19, 18, 0}, {25, 10, 9, 0}};
+    for (int i = 0; i < 3; i++) {
+        int left, top;
+        Image *cut = heat_cut(place->arena, image, points[i][0], points[i][1], 32, &left, &top);
+        assert_true(cut->width == 32 && cut->height == 20);
+        assert_true(left == points[i][2] && top == points[i][3]);
+        assert_true(cut->pixels[0] == (float)left);
+        assert_true(cut->pixels[3 * (32 * 20 - 1)] == (float)(left + 31 + 50 * 19));
+    }
+}
+
+static void text_is_escaped(void **state) {
+    (void)state;
+    char *text = NULL;
+    size_t size;
+    FILE *out = open_memstream(&text, &size);
+    html_text(out, "<b a=\"1\" b='2'>&amp;\033[0m\ttab \xc3\xa9\n");
+    fclose(out);
+    assert_string_equal(text,
+                        "&lt;b a=&quot;1&quot; b=&#39;2&#39;&gt;&amp;amp;[0m\ttab \xc3\xa9\n");
+    free(text);
+}
+
+// The bytes of the n-th data: URL of the page, or NULL.
+static unsigned char *data_url(Arena *arena, const char *page, int n, size_t *size) {
+    static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    const char *at = page, *mark = "src=\"data:image/png;base64,";
+    for (int i = 0; i <= n; i++) {
+        at = strstr(at, mark);
+        if (!at)
+            return NULL;
+        at += strlen(mark);
+    }
+    size_t length = strcspn(at, "\"");
+    unsigned char *bytes = arena_alloc(arena, length);
+    unsigned held = 0;
+    int bits = 0;
+    *size = 0;
+    for (size_t i = 0; i < length && at[i] != '='; i++) {
+        const char *digit = strchr(digits, at[i]);
+        assert_non_null(digit);
+        held = held << 6 | (unsigned)(digit - digits);
+        bits += 6;
+        if (bits >= 8)
+            bytes[(*size)++] = (unsigned char)(held >> (bits -= 8));
+    }
+    return bytes;
+}
+
+static size_t count_of(const char *text, const char *part) {
+    size_t count = 0;
+    for (const char *at = strstr(text, part); at; at = strstr(at + 1, part))
+        count++;
+    return count;
+}
+
+static void page_holds_everything(void **state) {
+    Place *place = *state;
+    write_pictures(place);
+    const char *odd = "o&dd '<b>.png";
+    assert_int_equal(rename(in(place, "one.png"), in(place, odd)), 0);
+    const char *said;
+    assert_int_equal(compare(place, "\"o&dd '<b>.png\" two.png -o a/ -V", &said), 1); // a/ is made
+    assert_non_null(strstr(said, "a/index.html"));
+    const char *page = file_read(place->arena, in(place, "a/index.html"), NULL, NULL);
+    assert_non_null(page);
+
+    // Nothing from outside, nothing unescaped.
+    assert_null(strstr(page, "http"));
+    assert_null(strstr(page, "@import"));
+    assert_null(strstr(page, "url("));
+    assert_null(strstr(page, "<b>."));
+    assert_non_null(strstr(page, "o&amp;dd &#39;&lt;b&gt;.png"));
+    assert_int_equal(count_of(page, "src="), count_of(page, "src=\"data:image/png;base64,"));
+    assert_int_equal(count_of(page, "src="), 7); // two, map, scale, three cut-outs
+    assert_int_equal(count_of(page, "<img"), count_of(page, " alt="));
+    assert_int_equal(count_of(page, "<figure"), count_of(page, "</figure>"));
+    assert_int_equal(count_of(page, "<div"), count_of(page, "</div>"));
+
+    // The pictures are the pictures; the map is dark where they are equal.
+    const char *const files[] = {in(place, odd), in(place, "two.png")};
+    for (int i = 0; i < 3; i++) {
+        size_t size;
+        unsigned char *bytes = data_url(place->arena, page, i, &size);
+        assert_non_null(bytes);
+        FILE *f = fopen(in(place, "back.png"), "wb");
+        fwrite(bytes, 1, size, f);
+        fclose(f);
+        Image *back = image_read(place->arena, in(place, "back.png"));
+        if (i < 2) {
+            Image *file = image_read(place->arena, files[i]);
+            assert_true(image_compare(back, file, 0, 0).max == 0);
+            continue;
+        }
+        assert_true(back->width == 10 && back->height == 10);
+        float equal = back->pixels[3 * 55] + back->pixels[3 * 55 + 1] + back->pixels[3 * 55 + 2];
+        float off = back->pixels[3 * 34] + back->pixels[3 * 34 + 1] + back->pixels[3 * 34 + 2];
+        float step = back->pixels[0] + back->pixels[1] + back->pixels[2];
+        assert_true(equal < 0.05f && step > equal && off > step);
+    }
+}
+
+static void script_runs_in_a_browser(void **state) {
+    Place *place = *state;
+    if (system("command -v chromium >/dev/null 2>&1") != 0) {
+        print_message("skipped: chromium is not installed\n");
+        skip();
+    }
+    write_pictures(place);
+    const char *said;
+    compare(place, "one.png two.png -o a", &said);
+    const char *command = arena_printf(
+        place->arena,
+        "cd %s && timeout 30 chromium --headless --no-sandbox --disable-gpu --user-data-dir=%s/b "
+        "--dump-dom file://%s/a/index.html >dom.html 2>browser.txt",
+        place->folder, place->folder, place->folder);
+    if (system(command) != 0) {
+        print_message("skipped: chromium does not run here\n");
+        skip();
+    }
+    const char *dom = file_read(place->arena, in(place, "dom.html"), NULL, NULL);
+    assert_non_null(strstr(dom, "<html lang=\"en\" class=\"js\">"));
+    assert_non_null(strstr(dom, "data-mode=\"slider\""));
+    assert_non_null(strstr(dom, "--cut: 50%"));
+    assert_non_null(strstr(dom, "one.png left, two.png right"));
+}
+
+// A ball of one colour under an orthographic camera: both renderers give the same bytes.
+static void one_scene_both_renderers(void **state) {
+    Place *place = *state;
+    if (!reference_available()) {
+        print_message("skipped: povray is not installed\n");
+        skip();
+    }
+    FILE *f = fopen(in(place, "ball.pov"), "w");
+    fputs("#version 3.7; global_settings { assumed_gamma 1.0 }\n"
+          "camera { orthographic location -3*z right 4*x up 3*y direction z }\n"
+          "sphere { 0, 1 pigment { rgb <0.9, 0.6, 0.3> } finish { ambient 1 diffuse 0 } }\n",
+          f);
+    fclose(f);
+    const char *said;
+    int status = compare(place, "ball.pov -h48 +W64 -o out --method facets -- +A0.3", &said);
+    if (status != 0)
+        fail_msg("status %d: %s", status, said);
+    assert_non_null(strstr(said, "PASS"));
+    assert_non_null(strstr(said, "User seconds: POV-Ray "));
+    Image *a = image_read(place->arena, in(place, "out/povray.png"));
+    Image *b = image_read(place->arena, in(place, "out/qirender.png"));
+    assert_true(a->width == 64 && a->height == 48);
+    assert_true(image_compare(a, b, 0, 0).max == 0);
+
+    // The page names the commands, word for word; ours alone has the word with two dashes.
+    const char *page = file_read(place->arena, in(place, "out/index.html"), NULL, NULL);
+    assert_non_null(strstr(page, "<pre>povray +Iball.pov +Oout/povray.png +W64 +H48 -h48 +W64 "
+                                 "+A0.3 -D -P</pre>"));
+    assert_non_null(strstr(page, "/qirender +Iball.pov +Oout/qirender.png +W64 +H48 -h48 +W64 "
+                                 "+A0.3 --method facets -D -P</pre>"));
+    assert_non_null(strstr(page, "User seconds"));
+
+    // What POV-Ray does not take stops the comparison, with its words.
+    f = fopen(in(place, "bad.pov"), "w");
+    fputs("sphere { 0, 1 pigment { rgb Redd } }\n", f);
+    fclose(f);
+    status = compare(place, "bad.pov +W8 +H6 -o out2", &said);
+    assert_int_equal(status, 1);
+    assert_non_null(strstr(said, "POV-Ray failed"));
+    assert_non_null(strstr(said, "Redd"));
+}
+
+#define TEST(function) cmocka_unit_test_setup_teardown(function, create, destroy)
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        TEST(exit_status),
+        TEST(figures_as_printed),
+        TEST(scale_and_classes),
+        TEST(cuts_stay_inside),
+        TEST(text_is_escaped),
+        TEST(page_holds_everything),
+        TEST(script_runs_in_a_browser),
+        TEST(one_scene_both_renderers),
+    };
+    return cmocka_run_group_tests_name("compare", tests, NULL, NULL);
+}

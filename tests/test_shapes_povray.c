@@ -11,12 +11,10 @@
 
 #include <cmocka.h>
 
-#include "base/rng.h"
+#include "tests/povray_pictures.h"
 #include "shape/shape.h"
 
 #include <stdio.h>
-#include <string.h>
-#include <unistd.h>
 
 enum { WIDTH = 64, HEIGHT = 48, CHANNELS = 3, PIXELS = WIDTH * HEIGHT };
 
@@ -28,7 +26,7 @@ static const double POINT_RANGE = 20.0;
 // Half a step of rounding and two of float arithmetic, in steps of 16 bits.
 static const double SLACK = 2.5;
 
-static char directory[] = "/tmp/qipov_shapes_XXXXXX";
+static PovrayPictures *pictures;
 
 static const char *const PAINTS[PAINT_COUNT] = {
     "#declare Out = texture { pigment { average pigment_map {"
@@ -74,8 +72,8 @@ typedef struct {
 } Job;
 
 static void write_scene(const Job *job, size_t number) {
-    char path[64];
-    snprintf(path, sizeof path, "%s/job%zu.pov", directory, number);
+    char path[128];
+    snprintf(path, sizeof path, "%s/job%zu.pov", pictures->directory, number);
     FILE *file = fopen(path, "w");
     assert_non_null(file);
     fprintf(file,
@@ -98,46 +96,6 @@ static void write_scene(const Job *job, size_t number) {
     // After the transform: what is painted is the hit in the world, not in the object's own space.
     fprintf(file, " texture { Out } interior_texture { In } }\n");
     fclose(file);
-}
-
-// Renders job0.pov .. at once: a run of povray is mostly waiting. False without povray.
-static bool render_all(size_t count) {
-    char command[512];
-    snprintf(
-        command, sizeof command,
-        "cd %s && rm -f *.ppm && n=0 && while [ $n -lt %zu ]; do povray +Ijob$n.pov "
-        "+Ojob$n.ppm +FP16 +W%d +H%d -D -A +WT1 File_Gamma=1.0 >log$n 2>&1 & n=$((n+1)); done; "
-        "wait; [ -s job0.ppm ]",
-        directory, count, WIDTH, HEIGHT);
-    return system(command) == 0;
-}
-
-// A binary PPM of 16 bits.
-static void read_picture(size_t number, uint16_t *pixels) {
-    char path[64], line[256];
-    snprintf(path, sizeof path, "%s/job%zu.ppm", directory, number);
-    FILE *file = fopen(path, "rb");
-    if (!file)
-        fail_msg("povray refused %s/job%zu.pov", directory, number);
-    int width = 0, height = 0, max = 0;
-    assert_non_null(fgets(line, sizeof line, file));
-    for (int have = 0; have < 2;) {
-        assert_non_null(fgets(line, sizeof line, file));
-        if (line[0] == '#')
-            continue;
-        if (have == 0)
-            have += sscanf(line, "%d %d", &width, &height) == 2;
-        else
-            have += sscanf(line, "%d", &max) == 1;
-    }
-    assert_int_equal(width, WIDTH);
-    assert_int_equal(height, HEIGHT);
-    assert_int_equal(max, 65535);
-    static unsigned char bytes[PIXELS * CHANNELS * 2];
-    assert_int_equal(fread(bytes, 1, sizeof bytes, file), sizeof bytes);
-    fclose(file);
-    for (size_t i = 0; i < PIXELS * CHANNELS; i++)
-        pixels[i] = (uint16_t)(bytes[2 * i] << 8 | bytes[2 * i + 1]);
 }
 
 static Ray ray_through(const View *view, int x, int y) {
@@ -205,8 +163,9 @@ static bool on_edge(const Shape *shape, const Ray *ray, Paint paint, const View 
 }
 
 static void compare(const Job *job, size_t number, Tally *tally) {
-    static uint16_t pixels[PIXELS * CHANNELS];
-    read_picture(number, pixels);
+    const uint16_t *pixels = povray_read(pictures, number);
+    if (!pixels)
+        fail_msg("povray refused %s/job%zu.pov", pictures->directory, number);
     Arena *arena = arena_create();
     Object object = job->test->object;
     object.has_transform = job->transform != NULL;
@@ -269,7 +228,7 @@ static void transforms(Transform out[3]) {
 static void render_jobs(const Job *jobs, size_t job_count) {
     for (size_t i = 0; i < job_count; i++)
         write_scene(&jobs[i], i);
-    if (!render_all(job_count)) {
+    if (!povray_render(pictures, job_count)) {
         print_message("povray is not installed: nothing to compare with\n");
         skip();
     }
@@ -433,16 +392,16 @@ static void test_grid_round(void **state) {
     check_grid(cases, 5);
 }
 
-static int make_directory(void **state) {
+static int create_pictures(void **state) {
     (void)state;
-    return mkdtemp(directory) ? 0 : -1;
+    pictures = povray_create(WIDTH, HEIGHT);
+    return 0;
 }
 
-static int remove_directory(void **state) {
+static int destroy_pictures(void **state) {
     (void)state;
-    char command[128];
-    snprintf(command, sizeof command, "rm -rf '%s'", directory);
-    return system(command);
+    povray_destroy(pictures);
+    return 0;
 }
 
 int main(void) {
@@ -453,5 +412,5 @@ int main(void) {
         cmocka_unit_test(test_disc),      cmocka_unit_test(test_triangle),
         cmocka_unit_test(test_grid_flat), cmocka_unit_test(test_grid_round),
     };
-    return cmocka_run_group_tests_name("shapes_povray", tests, make_directory, remove_directory);
+    return cmocka_run_group_tests_name("shapes_povray", tests, create_pictures, destroy_pictures);
 }

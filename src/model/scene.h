@@ -133,8 +133,7 @@ typedef struct {
     float specular, roughness; // roughness as written (the exponent is 1 / roughness)
     float metallic;
     Rgb reflection_min, reflection_max;
-    float reflection_falloff, reflection_metallic;
-    double reflection_exponent; // as written; what is reflected is raised to 1 / it
+    float reflection_falloff, reflection_exponent, reflection_metallic;
     bool reflection_fresnel;
     bool conserve_energy;
     float irid, irid_thickness, irid_turbulence;

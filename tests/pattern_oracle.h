@@ -19,7 +19,7 @@ Arena *oracle_arena(Oracle *oracle);
 void oracle_function(Oracle *oracle, const char *function, const char *after);
 // The answers in the order of asking. Leaves the test as skipped when there is no povray.
 const double *oracle_run(Oracle *oracle);
-// Counts, and prints the first, values that are not the same double.
+// Counts, and prints the first, values that are not the same double (a NaN for a NaN is).
 void oracle_equal(Oracle *oracle, double have, double want, const char *what, int point);
 // The test has failed if any value differed.
 void oracle_finish(Oracle *oracle);

@@ -9,7 +9,7 @@
 #include <cmocka.h>
 
 #include "base/array.h"
-#include "pattern_oracle.h"
+#include "digits.h"
 #include "texture/noise.h"
 #include "texture/pattern.h"
 #include "texture/texture.h"
@@ -39,19 +39,19 @@ static int teardown(void **state) {
 }
 
 static void check_rows(const Rows *rows) {
-    Oracle *oracle = oracle_create("");
+    Digits *digits = digits_create("");
     for (size_t r = 0; r < rows->count; r++)
-        oracle_function(
-            oracle, arena_printf(arena, "function { pattern { %s } }", rows->items[r].text), "");
-    const double *want = oracle_run(oracle);
+        digits_function(
+            digits, arena_printf(arena, "function { pattern { %s } }", rows->items[r].text), "");
+    const double *want = digits_run(digits);
     for (size_t r = 0; r < rows->count; r++)
-        for (int i = 0; i < ORACLE_POINTS; i++) {
+        for (int i = 0; i < DIGITS_POINTS; i++) {
             const Pattern *pattern = &rows->items[r].pattern;
             double have =
-                pattern_value(&settings, pattern, pattern_point(pattern, oracle_point(i)));
-            oracle_equal(oracle, have, *want++, rows->items[r].text, i);
+                pattern_value(&settings, pattern, pattern_point(pattern, digits_point(i)));
+            digits_equal(digits, have, *want++, rows->items[r].text, i);
         }
-    oracle_finish(oracle);
+    digits_finish(digits);
 }
 
 // ---- the table --------------------------------------------------------------------------------
@@ -342,20 +342,20 @@ static Scene scene_of(Pigment *pigments, uint32_t count) {
 static const char *const channels[5] = {".red", ".green", ".blue", ".filter", ".transmit"};
 
 static void check_pigment(const char *text, const Scene *scene, uint32_t pigment) {
-    Oracle *oracle = oracle_create("");
+    Digits *digits = digits_create("");
     for (int c = 0; c < 5; c++)
-        oracle_function(oracle, arena_printf(arena, "function { pigment { %s } }", text),
+        digits_function(digits, arena_printf(arena, "function { pigment { %s } }", text),
                         channels[c]);
-    const double *want = oracle_run(oracle);
+    const double *want = digits_run(digits);
     for (int c = 0; c < 5; c++)
-        for (int i = 0; i < ORACLE_POINTS; i++) {
-            TexturePoint at = {.p = oracle_point(i)};
+        for (int i = 0; i < DIGITS_POINTS; i++) {
+            TexturePoint at = {.p = digits_point(i)};
             Color have;
             assert_true(pigment_color(scene, pigment, &at, &have));
             const float values[5] = {have.r, have.g, have.b, have.filter, have.transmit};
-            oracle_equal(oracle, values[c], *want++, channels[c], i);
+            digits_equal(digits, values[c], *want++, channels[c], i);
         }
-    oracle_finish(oracle);
+    digits_finish(digits);
 }
 
 // Positions out of order of colours, a position twice, the end before 1.
@@ -411,16 +411,16 @@ static void listed_patterns(void **state) {
         {"hexagon", PATTERN_HEXAGON, 3},       {"square", PATTERN_SQUARE, 4},
         {"triangular", PATTERN_TRIANGULAR, 6}, {"cubic", PATTERN_CUBIC, 6},
     };
-    Oracle *oracle = oracle_create("");
+    Digits *digits = digits_create("");
     for (int k = 0; k < (int)(sizeof kinds / sizeof *kinds); k++) {
         const char *colors = "";
         for (uint32_t i = 0; i < kinds[k].count; i++)
             colors = arena_printf(arena, "%s rgb %g", colors, i / 8.0);
-        oracle_function(
-            oracle, arena_printf(arena, "function { pigment { %s %s } }", kinds[k].name, colors),
+        digits_function(
+            digits, arena_printf(arena, "function { pigment { %s %s } }", kinds[k].name, colors),
             ".red");
     }
-    const double *want = oracle_run(oracle);
+    const double *want = digits_run(digits);
     for (int k = 0; k < (int)(sizeof kinds / sizeof *kinds); k++) {
         MapEntry entries[6];
         for (uint32_t i = 0; i < kinds[k].count; i++)
@@ -428,14 +428,14 @@ static void listed_patterns(void **state) {
         Pigment pigment = {
             .pattern = listed(kinds[k].type), .entries = entries, .entry_count = kinds[k].count};
         Scene scene = scene_of(&pigment, 1);
-        for (int i = 0; i < ORACLE_POINTS; i++) {
-            TexturePoint at = {.p = oracle_point(i)};
+        for (int i = 0; i < DIGITS_POINTS; i++) {
+            TexturePoint at = {.p = digits_point(i)};
             Color have;
             pigment_color(&scene, 0, &at, &have);
-            oracle_equal(oracle, have.r, *want++, kinds[k].name, i);
+            digits_equal(digits, have.r, *want++, kinds[k].name, i);
         }
     }
-    oracle_finish(oracle);
+    digits_finish(digits);
 }
 
 static void uv_and_quick(void **state) {

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <cmocka.h>
 
-#include "pattern_oracle.h"
+#include "digits.h"
 #include "texture/noise.h"
 
 #include <math.h>
@@ -60,17 +60,17 @@ static void far_away(void **state) {
 
 static void generators(void **state) {
     (void)state;
-    Oracle *oracle = oracle_create("#include \"functions.inc\"\n");
+    Digits *digits = digits_create("#include \"functions.inc\"\n");
     for (int g = 1; g <= 3; g++) {
         char text[64];
         snprintf(text, sizeof text, "function { f_noise_generator(x, y, z, %d) }", g);
-        oracle_function(oracle, text, "");
+        digits_function(digits, text, "");
     }
-    const double *want = oracle_run(oracle);
+    const double *want = digits_run(digits);
     for (int g = 1; g <= 3; g++)
-        for (int i = 0; i < ORACLE_POINTS; i++)
-            oracle_equal(oracle, noise_value(pattern_oracle_point(i), g), *want++, "generator", i);
-    oracle_finish(oracle);
+        for (int i = 0; i < DIGITS_POINTS; i++)
+            digits_equal(digits, noise_value(digits_point(i), g), *want++, "generator", i);
+    digits_finish(digits);
 }
 
 static int prepare(void **state) {

@@ -19,7 +19,7 @@
 #define FINISH(...)                                                                                \
     {                                                                                              \
         .ambient = {0.1f, 0.1f, 0.1f}, .diffuse = 0.6f, .brilliance = 1.0f, .phong_size = 40.0f,   \
-        .roughness = 0.05f, .reflection_falloff = 1.0f, .reflection_exponent = 1.0, __VA_ARGS__    \
+        .roughness = 0.05f, .reflection_falloff = 1.0f, .reflection_exponent = 1.0f, __VA_ARGS__   \
     }
 #define AIR                                                                                        \
     { .ior = 1.0f }
@@ -71,7 +71,7 @@ static void add_room(Fixture *f) {
     Transform scale = transform_scale(vec3(0.73, 0.73, 0.73)),
               shift = transform_translate(vec3(0.11, 0.17, 0.31));
     Warp *warp = ARENA_NEW(f->arena, Warp);
-    *warp = (Warp){WARP_TRANSFORM, transform_compose(&scale, &shift)};
+    *warp = (Warp){.type = WARP_TRANSFORM, .transform = transform_compose(&scale, &shift)};
     Pigment wall = {
         .pattern = {.type = PATTERN_CHECKER, .exponent = 1.0f, .warps = warp, .warp_count = 1},
         .entries = checks,
@@ -203,7 +203,7 @@ static const Row reflections[] = {
      NULL, AIR},
     {CLAY, "reflection { 0.7 exponent 1.8 }",
      FINISH(.reflection_min = GREY3(0.7f), .reflection_max = GREY3(0.7f),
-            .reflection_exponent = 1.8),
+            .reflection_exponent = 1.8f),
      NULL, AIR},
     {CLAY,
      "reflection { 0.9 fresnel }",

@@ -9,7 +9,8 @@
 #include <cmocka.h>
 
 #include "base/array.h"
-#include "pattern_oracle.h"
+#include "digits.h"
+#include "texture/noise.h"
 #include "texture/pattern.h"
 #include "texture/texture.h"
 
@@ -22,9 +23,12 @@ typedef ARRAY(Row) Rows;
 
 static Arena *arena;
 
+static const Settings settings = {.noise_generator = 2, .number_of_waves = 10};
+
 static int setup(void **state) {
     (void)state;
     arena = arena_create();
+    noise_prepare();
     return 0;
 }
 
@@ -35,18 +39,19 @@ static int teardown(void **state) {
 }
 
 static void check_rows(const Rows *rows) {
-    Oracle *oracle = oracle_create("");
+    Digits *digits = digits_create("");
     for (size_t r = 0; r < rows->count; r++)
-        oracle_function(
-            oracle, arena_printf(arena, "function { pattern { %s } }", rows->items[r].text), "");
-    const double *want = oracle_run(oracle);
+        digits_function(
+            digits, arena_printf(arena, "function { pattern { %s } }", rows->items[r].text), "");
+    const double *want = digits_run(digits);
     for (size_t r = 0; r < rows->count; r++)
-        for (int i = 0; i < ORACLE_POINTS; i++) {
+        for (int i = 0; i < DIGITS_POINTS; i++) {
             const Pattern *pattern = &rows->items[r].pattern;
-            double have = pattern_value(pattern, pattern_point(pattern, pattern_oracle_point(i)));
-            oracle_equal(oracle, have, *want++, rows->items[r].text, i);
+            double have =
+                pattern_value(&settings, pattern, pattern_point(pattern, digits_point(i)));
+            digits_equal(digits, have, *want++, rows->items[r].text, i);
         }
-    oracle_finish(oracle);
+    digits_finish(digits);
 }
 
 // ---- the table --------------------------------------------------------------------------------
@@ -107,30 +112,250 @@ static void simple_patterns(void **state) {
     array_free(&rows);
 }
 
+static Pattern of_type(PatternType type) {
+    return (Pattern){
+        .type = type,
+        .frequency = 1.0f,
+        .exponent = 1.0f,
+        .agate_turb = 1.0f,
+        .brick_size = {8, 3, 4.5},
+        .mortar = 0.5f,
+        .quilted = {1.0f, 1.0f},
+        .crackle = {{-1, 1, 0}, 2.0, 0.0, false},
+    };
+}
+
+static Pattern listed(PatternType type) {
+    Pattern pattern = of_type(type);
+    pattern.frequency = 0.0f;
+    return pattern;
+}
+
+static Pattern waved(PatternType type, WaveType wave) {
+    Pattern pattern = of_type(type);
+    pattern.wave = wave;
+    return pattern;
+}
+
+static Pattern turbulent(Pattern pattern, double x, double y, double z) {
+    pattern.has_turbulence = true;
+    pattern.turbulence = (Turbulence){{x, y, z}, 6, 2.0f, 0.5f};
+    return pattern;
+}
+
+static void geometric_patterns(void **state) {
+    (void)state;
+    Rows rows = {0};
+    add(&rows, "boxed", of_type(PATTERN_BOXED));
+    add(&rows, "cylindrical", of_type(PATTERN_CYLINDRICAL));
+    add(&rows, "leopard", of_type(PATTERN_LEOPARD));
+    add(&rows, "onion", of_type(PATTERN_ONION));
+    add(&rows, "planar", of_type(PATTERN_PLANAR));
+    add(&rows, "radial frequency 3", (Pattern){.type = PATTERN_RADIAL, .frequency = 3.0f});
+    add(&rows, "spherical", of_type(PATTERN_SPHERICAL));
+    add(&rows, "brick", listed(PATTERN_BRICK));
+    Pattern brick = listed(PATTERN_BRICK);
+    brick.brick_size = vec3(1.3, 0.7, 0.9);
+    brick.mortar = 0.11f;
+    add(&rows, "brick brick_size <1.3, 0.7, 0.9> mortar 0.11", brick);
+    add(&rows, "cells", of_type(PATTERN_CELLS));
+    add(&rows, "hexagon", listed(PATTERN_HEXAGON));
+    add(&rows, "quilted", listed(PATTERN_QUILTED));
+    Pattern quilted = listed(PATTERN_QUILTED);
+    quilted.quilted[0] = 0.3f, quilted.quilted[1] = 0.8f;
+    add(&rows, "quilted control0 0.3 control1 0.8", quilted);
+    add(&rows, "ripples", of_type(PATTERN_RIPPLES));
+    Pattern ripples = of_type(PATTERN_RIPPLES);
+    ripples.frequency = 1.7f, ripples.phase = 0.3f;
+    add(&rows, "ripples frequency 1.7 phase 0.3", ripples);
+    ripples.type = PATTERN_WAVES;
+    add(&rows, "waves", of_type(PATTERN_WAVES));
+    add(&rows, "waves frequency 1.7 phase 0.3", ripples);
+    check_rows(&rows);
+    array_free(&rows);
+}
+
+static void noise_patterns(void **state) {
+    (void)state;
+    Rows rows = {0};
+    static const struct {
+        const char *name;
+        PatternType type;
+        WaveType wave;
+    } kinds[] = {
+        {"bozo", PATTERN_BOZO, WAVE_RAMP},         {"dents", PATTERN_DENTS, WAVE_RAMP},
+        {"granite", PATTERN_GRANITE, WAVE_RAMP},   {"wrinkles", PATTERN_WRINKLES, WAVE_RAMP},
+        {"marble", PATTERN_MARBLE, WAVE_TRIANGLE}, {"agate", PATTERN_AGATE, WAVE_RAMP},
+    };
+    for (int k = 0; k < (int)(sizeof kinds / sizeof *kinds); k++)
+        for (int g = 1; g <= 3; g++) {
+            Pattern pattern = waved(kinds[k].type, kinds[k].wave);
+            pattern.noise_generator = g;
+            add(&rows, arena_printf(arena, "%s noise_generator %d", kinds[k].name, g), pattern);
+            add(&rows,
+                arena_printf(arena, "%s noise_generator %d turbulence <0.4, 0.3, -0.2>",
+                             kinds[k].name, g),
+                turbulent(pattern, 0.4, 0.3, -0.2));
+        }
+    add(&rows, "wood", waved(PATTERN_WOOD, WAVE_TRIANGLE));
+    add(&rows, "wood turbulence <0.4, 0.3, -0.2>",
+        turbulent(waved(PATTERN_WOOD, WAVE_TRIANGLE), 0.4, 0.3, -0.2));
+    Pattern agate = turbulent(of_type(PATTERN_AGATE), 0.1, 0.1, 0.1);
+    agate.agate_turb = 0.7f;
+    agate.turbulence.octaves = 3, agate.turbulence.lambda = 2.3f, agate.turbulence.omega = 0.6f;
+    add(&rows, "agate agate_turb 0.7 turbulence 0.1 octaves 3 lambda 2.3 omega 0.6", agate);
+    Pattern spiral = waved(PATTERN_SPIRAL1, WAVE_TRIANGLE);
+    spiral.arms = 3;
+    add(&rows, "spiral1 3", spiral);
+    add(&rows, "spiral1 3 turbulence 0.3", turbulent(spiral, 0.3, 0.3, 0.3));
+    spiral.type = PATTERN_SPIRAL2;
+    add(&rows, "spiral2 3", spiral);
+    add(&rows, "spiral2 3 turbulence 0.3", turbulent(spiral, 0.3, 0.3, 0.3));
+    check_rows(&rows);
+    array_free(&rows);
+}
+
+static void add_crackle(Rows *rows, const char *text, CrackleShape shape) {
+    Pattern pattern = of_type(PATTERN_CRACKLE);
+    pattern.crackle = shape;
+    add(rows, text, pattern);
+}
+
+static void crackles(void **state) {
+    (void)state;
+    Rows rows = {0};
+    add(&rows, "crackle", of_type(PATTERN_CRACKLE));
+    add_crackle(&rows, "crackle form <0.3, -0.2, 0.9>",
+                (CrackleShape){{0.3, -0.2, 0.9}, 2.0, 0.0, false});
+    add_crackle(&rows, "crackle metric 1 offset 0.2", (CrackleShape){{-1, 1, 0}, 1.0, 0.2, false});
+    add_crackle(&rows, "crackle metric 3.5 offset 0.1 form x",
+                (CrackleShape){{1, 0, 0}, 3.5, 0.1, false});
+    add_crackle(&rows, "crackle offset 0.4 form <0, 0.4, 0>",
+                (CrackleShape){{0, 0.4, 0}, 2.0, 0.4, false});
+    add_crackle(&rows, "crackle solid", (CrackleShape){{-1, 1, 0}, 2.0, 0.0, true});
+    check_rows(&rows);
+    array_free(&rows);
+}
+
+// Coordinates at the limit of the chain of warps, where cells are no integers any more: every
+// pattern still gives a number.
+static void far_away(void **state) {
+    (void)state;
+    static const double far[] = {1e17, -1e17, 2147483647.9, -2147483649.0, 3e15, -1e-300, 0.0};
+    enum { COUNT = sizeof far / sizeof *far };
+    for (int type = PATTERN_CHECKER; type < PATTERN_MODELLED; type++)
+        for (int i = 0; i < COUNT * COUNT * COUNT; i++) {
+            Pattern pattern = turbulent(of_type((PatternType)type), 0.1, 0.2, 0.3);
+            pattern.gradient = vec3(1, 0, 0);
+            Vec3 p = vec3(far[i % COUNT], far[i / COUNT % COUNT], far[i / COUNT / COUNT]);
+            double v = pattern_value(&settings, &pattern, pattern_point(&pattern, p));
+            if (!(v >= 0.0 && v <= 1.00001))
+                fail_msg("pattern %d at %g, %g, %g: %g", type, p.x, p.y, p.z, v);
+        }
+}
+
+// ---- warps ------------------------------------------------------------------------------------
+
+// A pattern that shows where each coordinate has gone.
+static Pattern probe(Warp *warps, uint32_t count) {
+    Pattern pattern = gradient(3, 4, 5);
+    pattern.frequency = 0.1f;
+    pattern.warps = arena_copy(arena, warps, count * sizeof *warps);
+    pattern.warp_count = count;
+    return pattern;
+}
+
+static void add_warp(Rows *rows, const char *text, Warp warp) {
+    add(rows, arena_printf(arena, "gradient <3, 4, 5> frequency 0.1 warp { %s }", text),
+        probe(&warp, 1));
+}
+
+static void add_mapping(Rows *rows, const char *text, WarpType type, MappingWarp mapping) {
+    Warp warp = {.type = type};
+    warp.mapping = mapping;
+    add_warp(rows, text, warp);
+}
+
+static void warps(void **state) {
+    (void)state;
+    Rows rows = {0};
+    Turbulence turbulence = {{0.5, -0.3, 0.2}, 4, 2.1f, 0.55f};
+    Warp warp = {.type = WARP_TURBULENCE, .turbulence = turbulence};
+    add_warp(&rows, "turbulence <0.5, -0.3, 0.2> octaves 4 lambda 2.1 omega 0.55", warp);
+    warp = (Warp){.type = WARP_REPEAT, .repeat = {1, 0.37f, {0.1, 0.2, 0.3}, {-1, 1, -1}}};
+    add_warp(&rows, "repeat 0.37*y offset <0.1, 0.2, 0.3> flip <1, 0, 1>", warp);
+    warp = (Warp){.type = WARP_REPEAT, .repeat = {0, 1.3f, {0, 0, 0}, {-1, 1, 1}}};
+    add_warp(&rows, "repeat 1.3*x flip x", warp);
+    BlackHoleWarp hole = {
+        .center = {0.2, 0.1, -0.3}, .radius = 1.5, .strength = 0.8, .falloff = 1.5};
+    warp = (Warp){.type = WARP_BLACK_HOLE, .black_hole = hole};
+    add_warp(&rows, "black_hole <0.2, 0.1, -0.3>, 1.5 strength 0.8 falloff 1.5", warp);
+    warp.black_hole.inverse = true;
+    add_warp(&rows, "black_hole <0.2, 0.1, -0.3>, 1.5 strength 0.8 falloff 1.5 inverse", warp);
+    hole = (BlackHoleWarp){.center = {0.5, 0.6, 0.7},
+                           .radius = 0.5,
+                           .strength = 1.0,
+                           .falloff = 2.0,
+                           .repeat = true,
+                           .repeat_size = {2, 0, 3},
+                           .uncertainty = {0.3, 0.2, 0.1}};
+    warp = (Warp){.type = WARP_BLACK_HOLE, .black_hole = hole};
+    add_warp(&rows, "black_hole <0.5, 0.6, 0.7>, 0.5 repeat <2, 0, 3> turbulence <0.3, 0.2, 0.1>",
+             warp);
+    add_warp(&rows, "cubic", (Warp){.type = WARP_CUBIC});
+    const Vec3 z = vec3(0, 0, 1), x = vec3(1, 0, 0), tilted = vec_normalize(vec3(1, 2, 3));
+    add_mapping(&rows, "planar", WARP_PLANAR, (MappingWarp){.orientation = z});
+    add_mapping(&rows, "planar <1, 2, 3>, 0.7", WARP_PLANAR,
+                (MappingWarp){.orientation = tilted, .distance = 0.7});
+    add_mapping(&rows, "spherical", WARP_SPHERICAL, (MappingWarp){.orientation = z});
+    add_mapping(&rows, "spherical orientation x dist_exp 1", WARP_SPHERICAL,
+                (MappingWarp){.orientation = x, .dist_exp = 1.0});
+    add_mapping(&rows, "spherical orientation <1, 2, 3> dist_exp 0.7", WARP_SPHERICAL,
+                (MappingWarp){.orientation = tilted, .dist_exp = 0.7});
+    add_mapping(&rows, "cylindrical", WARP_CYLINDRICAL, (MappingWarp){.orientation = z});
+    add_mapping(&rows, "cylindrical orientation x dist_exp 2", WARP_CYLINDRICAL,
+                (MappingWarp){.orientation = x, .dist_exp = 2.0});
+    add_mapping(&rows, "toroidal", WARP_TOROIDAL,
+                (MappingWarp){.orientation = z, .major_radius = 1.0});
+    add_mapping(&rows, "toroidal major_radius 1.4 dist_exp 0.5", WARP_TOROIDAL,
+                (MappingWarp){.orientation = z, .dist_exp = 0.5, .major_radius = 1.4});
+    // Last written, first applied; the block's own turbulence at the end of the chain.
+    Warp chain[3] = {{.type = WARP_TRANSFORM, .transform = transform_rotate(vec3(0, 0, 30))},
+                     {.type = WARP_TURBULENCE, .turbulence = turbulence},
+                     {.type = WARP_TRANSFORM, .transform = transform_scale(vec3(2, 2, 2))}};
+    Pattern all = probe(chain, 3);
+    add(&rows,
+        "gradient <3, 4, 5> frequency 0.1 turbulence 0.2 scale 2 warp { turbulence <0.5, "
+        "-0.3, 0.2> octaves 4 lambda 2.1 omega 0.55 } rotate 30*z",
+        turbulent(all, 0.2, 0.2, 0.2));
+    check_rows(&rows);
+    array_free(&rows);
+}
+
 // ---- maps -------------------------------------------------------------------------------------
 
 static Scene scene_of(Pigment *pigments, uint32_t count) {
-    Scene scene = {.pigments = pigments, .pigment_count = count};
+    Scene scene = {.settings = settings, .pigments = pigments, .pigment_count = count};
     return scene;
 }
 
 static const char *const channels[5] = {".red", ".green", ".blue", ".filter", ".transmit"};
 
 static void check_pigment(const char *text, const Scene *scene, uint32_t pigment) {
-    Oracle *oracle = oracle_create("");
+    Digits *digits = digits_create("");
     for (int c = 0; c < 5; c++)
-        oracle_function(oracle, arena_printf(arena, "function { pigment { %s } }", text),
+        digits_function(digits, arena_printf(arena, "function { pigment { %s } }", text),
                         channels[c]);
-    const double *want = oracle_run(oracle);
+    const double *want = digits_run(digits);
     for (int c = 0; c < 5; c++)
-        for (int i = 0; i < ORACLE_POINTS; i++) {
-            TexturePoint at = {.p = pattern_oracle_point(i)};
+        for (int i = 0; i < DIGITS_POINTS; i++) {
+            TexturePoint at = {.p = digits_point(i)};
             Color have;
             assert_true(pigment_color(scene, pigment, &at, &have));
             const float values[5] = {have.r, have.g, have.b, have.filter, have.transmit};
-            oracle_equal(oracle, values[c], *want++, channels[c], i);
+            digits_equal(digits, values[c], *want++, channels[c], i);
         }
-    oracle_finish(oracle);
+    digits_finish(digits);
 }
 
 // Positions out of order of colours, a position twice, the end before 1.
@@ -172,6 +397,45 @@ static void pigment_map(void **state) {
                   "0.5] [0.6 rgb <0.3, 0.6, 0.9>] [1 gradient x color_map { [0 rgbf <0.2, 0.4, "
                   "0.8, 0.3>] [1 rgb <0.9, 0.5, 0.1>] } rotate 40*z] } scale 3",
                   &scene, 0);
+}
+
+// The patterns that POV-Ray evaluates only as pigments: the colour's red is the number / 8.
+static void listed_patterns(void **state) {
+    (void)state;
+    static const struct {
+        const char *name;
+        PatternType type;
+        uint32_t count;
+    } kinds[] = {
+        {"checker", PATTERN_CHECKER, 2},       {"brick", PATTERN_BRICK, 2},
+        {"hexagon", PATTERN_HEXAGON, 3},       {"square", PATTERN_SQUARE, 4},
+        {"triangular", PATTERN_TRIANGULAR, 6}, {"cubic", PATTERN_CUBIC, 6},
+    };
+    Digits *digits = digits_create("");
+    for (int k = 0; k < (int)(sizeof kinds / sizeof *kinds); k++) {
+        const char *colors = "";
+        for (uint32_t i = 0; i < kinds[k].count; i++)
+            colors = arena_printf(arena, "%s rgb %g", colors, i / 8.0);
+        digits_function(
+            digits, arena_printf(arena, "function { pigment { %s %s } }", kinds[k].name, colors),
+            ".red");
+    }
+    const double *want = digits_run(digits);
+    for (int k = 0; k < (int)(sizeof kinds / sizeof *kinds); k++) {
+        MapEntry entries[6];
+        for (uint32_t i = 0; i < kinds[k].count; i++)
+            entries[i] = (MapEntry){(float)i, {(float)i / 8.0f, 0, 0, 0, 0}, NO_INDEX};
+        Pigment pigment = {
+            .pattern = listed(kinds[k].type), .entries = entries, .entry_count = kinds[k].count};
+        Scene scene = scene_of(&pigment, 1);
+        for (int i = 0; i < DIGITS_POINTS; i++) {
+            TexturePoint at = {.p = digits_point(i)};
+            Color have;
+            pigment_color(&scene, 0, &at, &have);
+            digits_equal(digits, have.r, *want++, kinds[k].name, i);
+        }
+    }
+    digits_finish(digits);
 }
 
 static void uv_and_quick(void **state) {
@@ -226,8 +490,11 @@ static void opacity(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(simple_patterns), cmocka_unit_test(color_map),
-        cmocka_unit_test(pigment_map),     cmocka_unit_test(uv_and_quick),
+        cmocka_unit_test(simple_patterns), cmocka_unit_test(geometric_patterns),
+        cmocka_unit_test(noise_patterns),  cmocka_unit_test(crackles),
+        cmocka_unit_test(far_away),        cmocka_unit_test(warps),
+        cmocka_unit_test(color_map),       cmocka_unit_test(pigment_map),
+        cmocka_unit_test(listed_patterns), cmocka_unit_test(uv_and_quick),
         cmocka_unit_test(opacity),
     };
     return cmocka_run_group_tests_name("texture", tests, setup, teardown);

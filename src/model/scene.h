@@ -68,12 +68,38 @@ typedef struct {
 
 // ---- textures -------------------------------------------------------------------------------
 
-// ORDER pattern_type. Modelled: the first ones; the rest is parsed, warned of and replaced by the
-// converter, so that a Scene never holds it.
+// ORDER pattern_type. Modelled: those before PATTERN_MODELLED; the rest is parsed, warned of and
+// replaced by the converter, so that a Scene never holds it.
 typedef enum {
     PATTERN_PLAIN,
     PATTERN_CHECKER,  // list pattern: entries at 0, 1
     PATTERN_GRADIENT, // along `gradient`
+    PATTERN_AGATE,    // agate_turb; always with a turbulence (its octaves, omega, lambda)
+    PATTERN_BOXED,
+    PATTERN_BOZO,  // also spotted, bumps
+    PATTERN_BRICK, // list pattern: mortar at 0, brick at 1; brick_size, mortar
+    PATTERN_CELLS,
+    PATTERN_CRACKLE, // crackle
+    PATTERN_CUBIC,   // list pattern: entries at 0..5
+    PATTERN_CYLINDRICAL,
+    PATTERN_DENTS,
+    PATTERN_GRANITE,
+    PATTERN_HEXAGON, // list pattern: entries at 0, 1, 2
+    PATTERN_LEOPARD,
+    PATTERN_MARBLE,
+    PATTERN_ONION,
+    PATTERN_PLANAR,
+    PATTERN_QUILTED, // quilted
+    PATTERN_RADIAL,
+    PATTERN_RIPPLES,
+    PATTERN_SPHERICAL,
+    PATTERN_SPIRAL1,    // arms
+    PATTERN_SPIRAL2,    // arms
+    PATTERN_SQUARE,     // list pattern: entries at 0..3
+    PATTERN_TRIANGULAR, // list pattern: entries at 0..5
+    PATTERN_WAVES,
+    PATTERN_WOOD,
+    PATTERN_WRINKLES,
     PATTERN_MODELLED, // patterns from here on are not in a Scene
 } PatternType;
 
@@ -87,15 +113,64 @@ typedef enum {
     WAVE_POLY,
 } WaveType;
 
+// Moves a point by amount (componentwise) times a sum of octaves of noise.
+typedef struct {
+    Vec3 amount;
+    int octaves;         // 1..10; default 6
+    float lambda, omega; // default 2, 0.5
+} Turbulence;
+
 // ORDER warp_type
 typedef enum {
     WARP_TRANSFORM, // the point is multiplied by the inverse
+    WARP_TURBULENCE,
+    WARP_REPEAT,
+    WARP_BLACK_HOLE,
+    WARP_CUBIC,
+    WARP_PLANAR, // this and the next three: `mapping`
+    WARP_SPHERICAL,
+    WARP_CYLINDRICAL,
+    WARP_TOROIDAL,
 } WarpType;
 
 typedef struct {
+    int axis; // 0, 1, 2
+    float width;
+    Vec3 offset; // added once a tile
+    Vec3 flip;   // each 1, or -1: mirrored in every other tile
+} RepeatWarp;
+
+typedef struct {
+    Vec3 center; // with repeat: as the parser has raised it (facts: textures 3.6)
+    double radius, strength, falloff;
+    bool inverse;
+    bool repeat;
+    Vec3 repeat_size, uncertainty; // a component 0: not repeated along it
+} BlackHoleWarp;
+
+typedef struct {
+    Vec3 orientation; // unit; default z
+    double distance;  // planar
+    double dist_exp;
+    double major_radius; // toroidal
+} MappingWarp;
+
+typedef struct {
     WarpType type;
-    Transform transform;
+    union {
+        Transform transform;
+        Turbulence turbulence;
+        RepeatWarp repeat;
+        BlackHoleWarp black_hole;
+        MappingWarp mapping;
+    };
 } Warp;
+
+typedef struct {
+    Vec3 form;
+    double metric, offset;
+    bool solid;
+} CrackleShape;
 
 // How a point becomes a number. warps are stored in the order in which they are applied to the
 // point (last written first); consecutive transforms are one (facts: textures 1.6).
@@ -103,9 +178,18 @@ typedef struct {
     PatternType type;
     WaveType wave;
     float frequency, phase, exponent; // frequency 0: no modulus, phase ignored
-    Vec3 gradient;                    // of unit length
+    int noise_generator;              // 1, 2, 3; 0: the scene's
     Warp *warps;
     uint32_t warp_count;
+    bool has_turbulence;   // the `turbulence` of the block itself, applied after all warps
+    Turbulence turbulence; // with has_turbulence; marble, wood, spirals and agate look inside
+    Vec3 gradient;         // of unit length
+    float agate_turb;      // default 1
+    int arms;              // spiral1, spiral2
+    Vec3 brick_size;       // default <8, 3, 4.5>
+    float mortar;          // as written; default 0.5
+    float quilted[2];      // control0, control1; default 1, 1
+    CrackleShape crackle;  // default form <-1, 1, 0>, metric 2
 } Pattern;
 
 // One entry of a map: `value` is the position; the colour, or a pigment when pigment != NO_INDEX.
@@ -133,8 +217,7 @@ typedef struct {
     float specular, roughness; // roughness as written (the exponent is 1 / roughness)
     float metallic;
     Rgb reflection_min, reflection_max;
-    float reflection_falloff, reflection_metallic;
-    double reflection_exponent; // as written; what is reflected is raised to 1 / it
+    float reflection_falloff, reflection_exponent, reflection_metallic;
     bool reflection_fresnel;
     bool conserve_energy;
     float irid, irid_thickness, irid_turbulence;

@@ -120,7 +120,7 @@ static void add_reflected(Tracer *tracer, const Surface *surface, const Layers *
         if (total && fabs(d.x) <= SHADE_EPS && fabs(d.y) <= SHADE_EPS && fabs(d.z) <= SHADE_EPS)
             continue; // the total reflection has already shown it
         Rgb seen = reflect_trace(tracer, surface, reflection);
-        if (reflection->finish->reflection_exponent != 1.0) {
+        if (reflection->finish->reflection_exponent != 1.0f) {
             float e = (float)(1.0 / reflection->finish->reflection_exponent);
             seen = rgb(powf(seen.r, e), powf(seen.g, e), powf(seen.b, e));
         }

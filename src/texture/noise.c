@@ -12,7 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { HASH_SIZE = 4096, GRADIENT_SIZE = 267, PERLIN_SIZE = 2048, RANDOM_SIZE = 32768 };
+enum { HASH_SIZE = 4096, GRADIENT_SIZE = 267, PERLIN_SIZE = 2048, RANDOM_SIZE = 32768, WAVES = 32 };
 
 static const double EPS = 1e-10; // POV-Ray's near-zero
 
@@ -23,6 +23,8 @@ static struct {
     uint16_t perlin_order[2 * PERLIN_SIZE + 2];
     Vec3 perlin_gradient[2 * PERLIN_SIZE + 2];
     double random[RANDOM_SIZE];
+    Vec3 wave_center[WAVES]; // the first ones; more are made when asked for
+    double wave_frequency[WAVES];
 } table;
 static pthread_once_t table_once = PTHREAD_ONCE_INIT;
 
@@ -119,11 +121,14 @@ static void make_random(void) {
     }
 }
 
+static void make_waves(void);
+
 static void make_tables(void) {
     make_hash();
     make_gradient();
     make_perlin();
     make_random();
+    make_waves();
 }
 
 void noise_prepare(void) { pthread_once(&table_once, make_tables); }
@@ -270,6 +275,40 @@ Vec3 noise_turbulence_vector(Vec3 p, const NoiseOctaves *octaves) {
         omega *= octaves->omega;
     }
     return value;
+}
+
+// The linear generator i steps on: x -> a x + c, squared again and again.
+static uint32_t linear_jump(uint32_t state, uint32_t i) {
+    uint32_t a = 1812433253u, c = 12345u;
+    for (; i > 0; i >>= 1) {
+        if (i & 1)
+            state = state * a + c;
+        c *= a + 1;
+        a *= a;
+    }
+    return state;
+}
+
+static void make_wave(uint32_t i, Vec3 *center, double *frequency) {
+    Vec3 v = noise_vector(vec3(i, 0.0, 0.0));
+    double length = vec_length(v);
+    *center = vec3(v.x / length, v.y / length, v.z / length);
+    uint32_t state = linear_jump((uint32_t)-560851967, i);
+    *frequency = linear_next(&state) * 0.000030518509476 + 0.01;
+}
+
+static void make_waves(void) {
+    for (uint32_t i = 0; i < WAVES; i++)
+        make_wave(i, &table.wave_center[i], &table.wave_frequency[i]);
+}
+
+void noise_wave(uint32_t i, Vec3 *center, double *frequency) {
+    if (i < WAVES) {
+        *center = table.wave_center[i];
+        *frequency = table.wave_frequency[i];
+    } else {
+        make_wave(i, center, frequency);
+    }
 }
 
 uint32_t noise_cell(int x, int y, int z) {

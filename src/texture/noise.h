@@ -30,6 +30,10 @@ Vec3 noise_turbulence_vector(Vec3 p, const NoiseOctaves *octaves);
 uint32_t noise_cell(int x, int y, int z);
 double noise_random(uint32_t index);
 
+// The i-th of the waves that ripples and waves add up: its centre (at distance 1 from the origin)
+// and its frequency.
+void noise_wave(uint32_t i, Vec3 *center, double *frequency);
+
 // x rounded as POV-Ray's (int): what does not fit becomes INT_MIN instead of undefined.
 int noise_int(double x);
 

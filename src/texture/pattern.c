@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: MIT
 // A point becomes a number in three steps (facts: textures 1.6, 2, 4.2): the chain of warps, the
-// pattern's own formula, then frequency, phase and wave. All in double; the parameters that POV-Ray
-// keeps as float are float in the scene and promoted when used.
+// pattern's own formula (formula.h), then frequency, phase and wave. All in double; the parameters
+// that POV-Ray keeps as float are float in the scene and promoted when used.
 #include "texture/pattern.h"
+
+#include "texture/formula.h"
+#include "texture/noise.h"
+#include "texture/warp.h"
 
 #include <assert.h>
 #include <math.h>
 
-static const double PI_2 = 6.283185307179586476925; // POV-Ray's 2 pi
-static const double EPS = 1e-10;                    // POV-Ray's near-zero
-static const double COORDINATE_LIMIT = 1e17;        // where the chain of warps clamps
+static const double COORDINATE_LIMIT = 1e17; // where the chain of warps clamps
 // POV-Ray reduces modulo this instead of 1, so that a value of exactly 1 stays at the map's end.
 static const double WRAP = 1.00001;
 
@@ -18,26 +20,22 @@ static double clamp_coordinate(double x) {
 }
 
 Vec3 pattern_point(const Pattern *pattern, Vec3 p) {
-    for (uint32_t i = 0; i < pattern->warp_count; i++) {
-        const Warp *warp = &pattern->warps[i];
-        switch (warp->type) {
-        case WARP_TRANSFORM:
-            p = transform_inv_point(&warp->transform, p);
-            break;
-        }
-    }
+    for (uint32_t i = 0; i < pattern->warp_count; i++)
+        p = warp_apply(&pattern->warps[i], p);
+    // The block's own turbulence comes last, wherever it is written; marble and wood have it in
+    // their formulas instead.
+    if (pattern->has_turbulence && pattern->type != PATTERN_MARBLE && pattern->type != PATTERN_WOOD)
+        p = warp_turbulence(&pattern->turbulence, p);
     return vec3(clamp_coordinate(p.x), clamp_coordinate(p.y), clamp_coordinate(p.z));
 }
 
-// One period of the sine at fraction v; odd, and rounded through a scale of 50000 as POV-Ray's.
-static double cycloidal(double v) {
+double formula_cycloidal(double v) {
     if (v >= 0.0)
-        return sin((v - floor(v)) * 50000.0 / 50000.0 * PI_2);
-    return -sin(-(v + floor(-v)) * 50000.0 / 50000.0 * PI_2);
+        return sin((v - floor(v)) * 50000.0 / 50000.0 * FORMULA_PI_2);
+    return -sin(-(v + floor(-v)) * 50000.0 / 50000.0 * FORMULA_PI_2);
 }
 
-// 0 at whole numbers, 1 half-way between.
-static double triangle(double v) {
+double formula_triangle(double v) {
     double offset = v >= 0.0 ? v - floor(v) : v + 1.0 + floor(fabs(v));
     return offset >= 0.5 ? 2.0 * (1.0 - offset) : 2.0 * offset;
 }
@@ -47,11 +45,11 @@ static double wave(const Pattern *pattern, double v) {
     case WAVE_RAMP:
         return v;
     case WAVE_TRIANGLE:
-        return triangle(v);
+        return formula_triangle(v);
     case WAVE_SINE:
-        return (1.0 + cycloidal(v)) * 0.5;
+        return (1.0 + formula_cycloidal(v)) * 0.5;
     case WAVE_SCALLOP:
-        return fabs(cycloidal(v * 0.5));
+        return fabs(formula_cycloidal(v * 0.5));
     case WAVE_CUBIC:
         return v * v * (-2.0 * v + 3.0);
     case WAVE_POLY:
@@ -60,33 +58,83 @@ static double wave(const Pattern *pattern, double v) {
     return v;
 }
 
-// Which of the two colours: the parity of the unit cube; EPS keeps points on its faces in it.
-static double checker(Vec3 p) {
-    double cell = floor(p.x + EPS) + floor(p.y + EPS) + floor(p.z + EPS);
-    return fmod(cell, 2.0) != 0.0 ? 1.0 : 0.0;
+// The formula's value; split in two only for length.
+static double noise_formula(const Settings *settings, const Pattern *pattern, Vec3 p) {
+    int generator = pattern->noise_generator;
+    if (generator == 0)
+        generator = settings->noise_generator;
+    switch (pattern->type) {
+    case PATTERN_AGATE:
+        return stone_agate(pattern, p, generator);
+    case PATTERN_BOZO:
+        return noise_value(p, generator);
+    case PATTERN_CRACKLE:
+        return crackle_value(&pattern->crackle, p, generator);
+    case PATTERN_DENTS:
+        return stone_dents(p, generator);
+    case PATTERN_GRANITE:
+        return stone_granite(p, generator);
+    case PATTERN_MARBLE:
+        return stone_marble(pattern, p, generator);
+    case PATTERN_RIPPLES:
+        return solid_ripples(pattern, p, settings->number_of_waves);
+    case PATTERN_SPIRAL1:
+        return stone_spiral1(pattern, p, generator);
+    case PATTERN_SPIRAL2:
+        return stone_spiral2(pattern, p, generator);
+    case PATTERN_WAVES:
+        return solid_waves(pattern, p, settings->number_of_waves);
+    case PATTERN_WOOD:
+        return stone_wood(pattern, p);
+    case PATTERN_WRINKLES:
+        return stone_wrinkles(p, generator);
+    default:
+        assert(!"this pattern has no value");
+        return 0.0;
+    }
 }
 
-static double gradient(const Pattern *pattern, Vec3 p) {
-    double d = vec_dot(p, pattern->gradient);
-    return d > 1.0 ? fmod(d, 1.0) : d;
-}
-
-static double raw_value(const Pattern *pattern, Vec3 p) {
+static double formula(const Settings *settings, const Pattern *pattern, Vec3 p) {
     switch (pattern->type) {
     case PATTERN_CHECKER:
-        return checker(p);
+        return tiles_checker(p);
     case PATTERN_GRADIENT:
-        return gradient(pattern, p);
-    case PATTERN_PLAIN:
-    case PATTERN_MODELLED:
-        break;
+        return solid_gradient(pattern, p);
+    case PATTERN_BOXED:
+        return solid_boxed(p);
+    case PATTERN_BRICK:
+        return tiles_brick(pattern, p);
+    case PATTERN_CELLS:
+        return tiles_cells(p);
+    case PATTERN_CUBIC:
+        return tiles_cubic(p);
+    case PATTERN_CYLINDRICAL:
+        return solid_cylindrical(p);
+    case PATTERN_HEXAGON:
+        return tiles_hexagon(p);
+    case PATTERN_LEOPARD:
+        return solid_leopard(p);
+    case PATTERN_ONION:
+        return solid_onion(p);
+    case PATTERN_PLANAR:
+        return solid_planar(p);
+    case PATTERN_QUILTED:
+        return tiles_quilted(pattern, p);
+    case PATTERN_RADIAL:
+        return solid_radial(p);
+    case PATTERN_SPHERICAL:
+        return solid_spherical(p);
+    case PATTERN_SQUARE:
+        return tiles_square(p);
+    case PATTERN_TRIANGULAR:
+        return tiles_triangular(p);
+    default:
+        return noise_formula(settings, pattern, p);
     }
-    assert(!"this pattern has no value");
-    return 0.0;
 }
 
-double pattern_value(const Pattern *pattern, Vec3 warped) {
-    double v = raw_value(pattern, warped);
+double pattern_value(const Settings *settings, const Pattern *pattern, Vec3 warped) {
+    double v = formula(settings, pattern, warped);
     if (pattern->frequency != 0.0f)
         v = fmod(v * pattern->frequency + pattern->phase, WRAP);
     if (v < 0.0)

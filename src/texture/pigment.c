@@ -60,7 +60,7 @@ bool pigment_color(const Scene *scene, uint32_t index, const TexturePoint *at, C
     if (pigment->uv_mapping)
         inner.p = vec3(at->u, at->v, 0.0);
     inner.p = pattern_point(&pigment->pattern, inner.p);
-    double v = pattern_value(&pigment->pattern, inner.p);
+    double v = pattern_value(&scene->settings, &pigment->pattern, inner.p);
     uint32_t i, j;
     map_find(pigment, v, &i, &j);
     const MapEntry *before = &pigment->entries[i], *entry = &pigment->entries[j];

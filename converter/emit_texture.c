@@ -146,7 +146,8 @@ static void copy_warps(Emitter *e, const PatternNode *node, Pattern *pattern) {
             Warp *last = &pattern->warps[pattern->warp_count - 1];
             last->transform = transform_compose(&warp->transform, &last->transform);
         } else {
-            pattern->warps[pattern->warp_count++] = (Warp){WARP_TRANSFORM, warp->transform};
+            pattern->warps[pattern->warp_count++] =
+                (Warp){.type = WARP_TRANSFORM, .transform = warp->transform};
             joined = true;
         }
     }

@@ -34,7 +34,7 @@ static void parse_reflection_block(Converter *cv, Finish *finish) {
         } else if (accept(cv, KW_falloff)) {
             finish->reflection_falloff = number(cv);
         } else if (accept(cv, KW_exponent)) {
-            finish->reflection_exponent = parse_float(cv);
+            finish->reflection_exponent = number(cv);
         } else if (accept(cv, KW_metallic)) {
             finish->reflection_metallic = optional_number(cv, 1);
         } else {
@@ -104,7 +104,7 @@ static bool parse_number(Converter *cv, FinishNode *node, int code) {
     Finish *finish = &node->finish;
     if (code == KW_reflection_exponent) {
         next_token(cv);
-        finish->reflection_exponent = parse_float(cv);
+        finish->reflection_exponent = number(cv);
         return true;
     }
     float *to = NULL;

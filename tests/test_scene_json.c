@@ -107,9 +107,9 @@ static void test_comparison_sees(void **state) {
     Rng a = {11}, b = {11};
     Scene *one = random_scene(&a, arena), *two = random_scene(&b, arena);
     assert_null(scene_difference(one, two));
-    // The members of a finish before the first that needs padding are floats.
+    // All members of a finish but the two bools and their padding are floats.
     unsigned char *bytes = (unsigned char *)&two->textures[0].layers[0].finish;
-    for (size_t i = 0; i < offsetof(Finish, reflection_metallic); i++) {
+    for (size_t i = 0; i < offsetof(Finish, reflection_fresnel); i++) {
         bytes[i] ^= 1;
         assert_non_null(scene_difference(one, two));
         bytes[i] ^= 1;
@@ -161,7 +161,7 @@ static Scene *small_scene(Arena *arena, uint32_t patches) {
         scene->objects[i].texture = 0;
         scene->objects[i].shape.patch.points = &points[(size_t)i * 16];
         for (int j = 0; j < 16; j++)
-            points[i * 16 + (uint32_t)j] = vec3(j / 4, j % 4 + 0.25, i);
+            points[i * 16 + (uint32_t)j] = vec3((double)(j >> 2), j % 4 + 0.25, i);
     }
     scene_collect_requires(scene, arena);
     return scene;

@@ -175,7 +175,7 @@ static const Field FINISH_FIELDS[] = {
     RGB(Finish, reflection_min, "reflection_min"),
     RGB(Finish, reflection_max, "reflection_max"),
     FLOAT(Finish, reflection_falloff, "reflection_falloff"),
-    DOUBLE(Finish, reflection_exponent, "reflection_exponent"),
+    FLOAT(Finish, reflection_exponent, "reflection_exponent"),
     FLOAT(Finish, reflection_metallic, "reflection_metallic"),
     BOOL(Finish, reflection_fresnel, "reflection_fresnel"),
     BOOL(Finish, conserve_energy, "conserve_energy"),

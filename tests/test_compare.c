@@ -309,7 +309,7 @@ static void one_scene_both_renderers(void **state) {
     FILE *f = fopen(in(place, "ball.pov"), "w");
     fputs("#version 3.7; global_settings { assumed_gamma 1.0 }\n"
           "camera { orthographic location -3*z right 4*x up 3*y direction z }\n"
-          "sphere { 0, 1 pigment { rgb <0.9, 0.6, 0.3> } finish { ambient 1 diffuse 0 } }\n",
+          "sphere { 0, 0.97 pigment { rgb <0.9, 0.6, 0.3> } finish { ambient 1 diffuse 0 } }\n",
           f);
     fclose(f);
     const char *said;

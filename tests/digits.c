@@ -49,7 +49,6 @@ Digits *digits_create(const char *head) {
     return d;
 }
 
-
 void digits_function(Digits *d, const char *function, const char *after) {
     fprintf(d->script, "#declare F = %s\n", function);
     for (int i = 0; i < DIGITS_POINTS; i++) {

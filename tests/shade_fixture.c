@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: MIT
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <cmocka.h>
+
 #include "shade_fixture.h"
 
 #include "base/diag.h"
 
 #include <math.h>
-#include <stdarg.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -275,4 +280,100 @@ int fixture_compare(Fixture *f, int limit) {
     if (lit == 0)
         die("povray's picture is black: the test shows nothing");
     return worst;
+}
+
+// ---- parts that several tests share ---
+
+// The macro lets a finish name only what differs from the default; later initialisers win on
+// purpose.
+#pragma GCC diagnostic ignored "-Woverride-init"
+
+void fixture_add_lights(Fixture *f) {
+    fixture_text(f,
+                 "light_source { <-30, 40, -50> rgb <0.8, 0.7, 0.6> }\n"
+                 "light_source { <20, 5, -30> rgb <0.1, 0.2, 0.4> parallel point_at <3, -1, 2> }\n"
+                 "light_source { <2, -30, -20> rgb <0.15, 0.05, 0.1> shadowless }\n"
+                 "light_source { <1, 7, -6> rgb <0.3, 0.35, 0.2> fade_distance 5.3 "
+                 "fade_power 1.7 }\n");
+    fixture_light(
+        f, (Light){.type = LIGHT_POINT, .location = {-30, 40, -50}, .color = {0.8f, 0.7f, 0.6f}});
+    fixture_light(f, (Light){.type = LIGHT_PARALLEL,
+                             .location = {20, 5, -30},
+                             .point_at = {3, -1, 2},
+                             .color = {0.1f, 0.2f, 0.4f}});
+    fixture_light(f, (Light){.type = LIGHT_POINT,
+                             .location = {2, -30, -20},
+                             .color = {0.15f, 0.05f, 0.1f},
+                             .shadowless = true});
+    fixture_light(f, (Light){.type = LIGHT_POINT,
+                             .location = {1, 7, -6},
+                             .color = {0.3f, 0.35f, 0.2f},
+                             .fade_distance = 5.3,
+                             .fade_power = 1.7});
+}
+
+void fixture_add_room(Fixture *f) {
+    fixture_text(f, "plane { z, 4 pigment { checker rgb <0.9, 0.8, 0.7> rgb <0.1, 0.2, 0.5> "
+                    "scale 0.73 translate <0.11, 0.17, 0.31> } }\n"
+                    "plane { y, -3 pigment { rgb <0.4, 0.6, 0.3> } }\n");
+    static MapEntry checks[2] = {{0.0f, {0.9f, 0.8f, 0.7f, 0.0f, 0.0f}, NO_INDEX},
+                                 {1.0f, {0.1f, 0.2f, 0.5f, 0.0f, 0.0f}, NO_INDEX}};
+    Transform scale = transform_scale(vec3(0.73, 0.73, 0.73)),
+              shift = transform_translate(vec3(0.11, 0.17, 0.31));
+    Warp *warp = ARENA_NEW(f->arena, Warp);
+    *warp = (Warp){.type = WARP_TRANSFORM, .transform = transform_compose(&scale, &shift)};
+    Pigment wall = {
+        .pattern = {.type = PATTERN_CHECKER, .exponent = 1.0f, .warps = warp, .warp_count = 1},
+        .entries = checks,
+        .entry_count = 2,
+    };
+    Layer layer = {fixture_pigment(f, wall), FINISH()};
+    Object object = fixture_plane(vec3(0, 0, 1), 4.0);
+    object.texture = fixture_texture(f, &layer, 1);
+    fixture_object(f, object);
+    layer = (Layer){fixture_plain(f, (Color){0.4f, 0.6f, 0.3f, 0.0f, 0.0f}), FINISH()};
+    object = fixture_plane(vec3(0, 1, 0), -3.0);
+    object.texture = fixture_texture(f, &layer, 1);
+    fixture_object(f, object);
+}
+
+void fixture_add_sphere(Fixture *f, Vec3 center, double radius, const char *text, uint32_t texture,
+                        uint32_t interior) {
+    fixture_text(f, "sphere { <%.17g, %.17g, %.17g>, %.17g %s }\n", center.x, center.y, center.z,
+                 radius, text);
+    Object sphere = fixture_sphere(center, radius);
+    sphere.texture = texture;
+    sphere.interior = interior;
+    fixture_object(f, sphere);
+}
+
+uint32_t fixture_one_layer(Fixture *f, Color color, Finish finish) {
+    Layer layer = {fixture_plain(f, color), finish};
+    return fixture_texture(f, &layer, 1);
+}
+
+// POV-Ray takes most of a second for the smallest scene, and sleeps through most of that: a test
+// starts all its scenes before it looks at the first.
+static Fixture *launched[16];
+static size_t launched_count;
+
+void fixture_compare_later(Fixture *f, int quality, bool alpha) {
+    if (!fixture_povray_available()) {
+        printf("skipped: no povray to compare with\n");
+        skip();
+    }
+    assert_true(launched_count < sizeof launched / sizeof *launched);
+    fixture_launch(f, quality, alpha);
+    launched[launched_count++] = f;
+}
+
+void fixture_compare_now(void) {
+    int worst = 0;
+    for (size_t i = 0; i < launched_count; i++) {
+        int difference = fixture_compare(launched[i], 0);
+        worst = difference > worst ? difference : worst;
+        fixture_destroy(launched[i]);
+    }
+    launched_count = 0;
+    assert_int_equal(worst, 0);
 }

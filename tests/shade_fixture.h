@@ -64,4 +64,27 @@ void fixture_launch(Fixture *fixture, int quality, bool alpha);
 // it is above limit.
 int fixture_compare(Fixture *fixture, int limit);
 
+// A Finish that names only what differs from the default; for files that say
+// #pragma GCC diagnostic ignored "-Woverride-init".
+#define FINISH(...)                                                                                \
+    {                                                                                              \
+        .ambient = {0.1f, 0.1f, 0.1f}, .diffuse = 0.6f, .brilliance = 1.0f, .phong_size = 40.0f,   \
+        .roughness = 0.05f, .reflection_falloff = 1.0f, .reflection_exponent = 1.0f, __VA_ARGS__   \
+    }
+#define GREY3(x)                                                                                   \
+    { x, x, x }
+
+// Four lights, one of each kind; a checkered wall at z = 4 and a floor at y = -3, both dull.
+void fixture_add_lights(Fixture *fixture);
+void fixture_add_room(Fixture *fixture);
+// On both sides; text is what stands behind the radius.
+void fixture_add_sphere(Fixture *fixture, Vec3 center, double radius, const char *text,
+                        uint32_t texture, uint32_t interior);
+uint32_t fixture_one_layer(Fixture *fixture, Color color, Finish finish);
+
+// A test launches all its scenes, then waits for all; not one value of 16 bits may differ: every
+// sum is rounded where POV-Ray rounds it. Leaves the test as skipped when there is no povray.
+void fixture_compare_later(Fixture *fixture, int quality, bool alpha);
+void fixture_compare_now(void);
+
 #endif

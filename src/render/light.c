@@ -3,7 +3,6 @@
 #include "render/shading.h"
 
 #include <math.h>
-#include <string.h>
 
 void lights_reset(Tracer *tracer) {
     uint32_t count = tracer->shading->scene->light_count;

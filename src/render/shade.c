@@ -4,7 +4,6 @@
 // through all of them; then what each layer reflects.
 #include "render/shading.h"
 
-#include <assert.h>
 #include <math.h>
 
 uint32_t surface_texture(const Object *object, double normal_dot_dir) {

@@ -5,7 +5,6 @@
 
 #include "texture/noise.h"
 
-#include <assert.h>
 #include <string.h>
 
 // Rays passed straight through cost no level, so a stack of transparent surfaces nests as deep as

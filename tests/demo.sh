@@ -4,6 +4,6 @@ set -eu
 cd "$(dirname "$0")/.."
 scene=/usr/share/doc/povray/examples/advanced/teapot/teapot.pov
 mkdir -p build/demo
-build/qicompare -o build/demo "$scene" +W800 +H600 +A0.3
+build/qicompare -o build/demo --fail 1 --warn 1 "$scene" +W800 +H600 +A0.3
 echo
 echo "The page with both pictures: $PWD/build/demo/index.html"

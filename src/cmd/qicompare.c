@@ -8,12 +8,14 @@
 #include "options/options.h"
 #include "report/compare_page.h"
 
+#include <ctype.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
@@ -121,12 +123,28 @@ static const char *machine_name(Arena *arena) {
                         cores == 1 ? "" : "s");
 }
 
+// Do the words given for both renderers set the size, so that it need not be said again?
+static bool names_size(const RenderOptions *o) {
+    bool width = false, height = false;
+    for (size_t k = 0; k < o->shared_count; k++) {
+        width |=
+            strncasecmp(o->shared[k] + 1, "W", 1) == 0 && isdigit((unsigned char)o->shared[k][2]);
+        height |=
+            strncasecmp(o->shared[k] + 1, "H", 1) == 0 && isdigit((unsigned char)o->shared[k][2]);
+    }
+    return width && height;
+}
+
 // Both renderers get the same words; qirender those with two dashes as well.
 static void render_both(const RenderOptions *o, const char *folder, ComparePage *page,
                         Arena *arena) {
     const char *extension = image_extension(o->format);
     const char *program[2] = {"povray", find_qirender(arena)};
     static const char *const names[2] = {"POV-Ray", "qirender"};
+    const char *slash = strrchr(o->input, '/');
+    // POV-Ray looks for includes in the working directory, not beside the scene.
+    const char *library =
+        slash ? arena_printf(arena, "+L%.*s", (int)(slash - o->input) + 1, o->input) : "+L.";
     for (int i = 0; i < 2; i++) {
         CompareSide *side = &page->side[i];
         side->name = names[i];
@@ -137,10 +155,13 @@ static void render_both(const RenderOptions *o, const char *folder, ComparePage 
         add(&command, program[i]);
         add(&command, arena_printf(arena, "+I%s", o->input));
         add(&command, arena_printf(arena, "+O%s", picture));
-        add(&command, arena_printf(arena, "+W%d", o->width));
-        add(&command, arena_printf(arena, "+H%d", o->height));
+        if (!names_size(o)) {
+            add(&command, arena_printf(arena, "+W%d", o->width));
+            add(&command, arena_printf(arena, "+H%d", o->height));
+        }
         for (size_t k = 0; k < o->shared_count; k++)
             add(&command, o->shared[k]);
+        add(&command, library);
         for (size_t k = 0; i == 1 && k < o->own_count; k++)
             add(&command, o->own[k]);
         add(&command, "-D");

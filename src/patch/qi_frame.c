@@ -182,11 +182,14 @@ static bool one_crossing(const QiFound *a, const QiFound *b) {
 }
 
 // The better of the two stays, over both rectangles: a crossing proved (sign known) before a mere
-// approach, then the smaller bound.
+// approach, then the bound if it differs much, then the nearer.
 static void absorb(QiFound *into, const QiFound *from) {
     BezierRect a = into->rect, b = from->rect;
     int known_a = into->sign != 0, known_b = from->sign != 0;
-    bool better = known_b != known_a ? known_b > known_a : from->bound < into->bound;
+    bool better = known_b != known_a                ? known_b > known_a
+                  : from->bound < 0.5 * into->bound ? true
+                  : into->bound < 0.5 * from->bound ? false
+                                                    : from->t < into->t;
     if (better)
         *into = *from;
     into->rect =

@@ -109,12 +109,6 @@ void piece_eval(const AccelPatch *patch, double u, double v, Vec3 out[3]) {
         eval_any(patch, u, v, out);
 }
 
-// The weights are positive and sum up to 1; each carries at most 2 n roundings, the double sum
-// 2 (du + dv) more: 4 (du + dv) 2^-53 in all, and one for the points less the center.
-double piece_rounding(const AccelPatch *patch) {
-    return patch->reach * 0x1p-53 * (4.0 * (patch->def->degree_u + patch->def->degree_v) + 1.0);
-}
-
 // ---- Cutting
 
 // The bound of |S_uu|, from the second differences of the net over the rectangle.
@@ -164,6 +158,9 @@ static float bound_up(double bound, double error) {
     return up < (double)FLT_MAX ? (float)up : INFINITY;
 }
 
+// What float cannot hold is left out: it only makes a guess better.
+static float to_float(double x) { return fabs(x) < (double)FLT_MAX ? (float)x : 0.0f; }
+
 // The affine part of the net, the box of the rest, and the box of the surface.
 static void make_cut(const Cutter *k, const Bezier *s, const Bezier *net, BezierRect rect,
                      Cut *out) {
@@ -192,9 +189,18 @@ static void make_cut(const Cutter *k, const Bezier *s, const Bezier *net, Bezier
     double width = rect.u1 - rect.u0, height = rect.v1 - rect.v0;
     error = 8.0 * bezier_rounding(k->whole);
     out->piece =
-        (Piece){rect, bound_up(bound_uu(s, width), error * du * du / (width * width)),
-                bound_up(bound_uv(s, width * height), error * du * dv / (width * height)),
-                bound_up(bound_vv(s, height), error * dv * dv / (height * height)), k->number};
+        (Piece){.rect = rect,
+                .muu = bound_up(bound_uu(s, width), error * du * du / (width * width)),
+                .muv = bound_up(bound_uv(s, width * height), error * du * dv / (width * height)),
+                .mvv = bound_up(bound_vv(s, height), error * dv * dv / (height * height)),
+                .patch = k->number};
+    BezierJet jet;
+    bezier_eval2(s, 0.5, 0.5, &jet);
+    for (int axis = 0; axis < 3; axis++) {
+        out->piece.suu[axis] = to_float(vec_get(jet.suu, axis) / (width * width));
+        out->piece.suv[axis] = to_float(vec_get(jet.suv, axis) / (width * height));
+        out->piece.svv[axis] = to_float(vec_get(jet.svv, axis) / (height * height));
+    }
 }
 
 // Is a cut across u (rather than v) what makes the piece flatter? A bend of second differences D
@@ -264,7 +270,7 @@ static AccelPatch make_patch(Arena *arena, const PatchDef *def, double tolerance
                         .center = vec_add(vec_scale(box.low, 0.5), vec_scale(box.high, 0.5)),
                         .cubic = rows == 4 && columns == 4,
                         .tolerance = tolerance * vec_length(vec_sub(box.high, box.low))};
-    double *local = ARENA_ARRAY(arena, double, (size_t)(3 * rows * columns));
+    double *local = ARENA_ARRAY(arena, double, (size_t)(3 * rows * columns)), reach = 0.0;
     for (int axis = 0; axis < 3; axis++) {
         for (int i = 0; i < rows; i++) {
             for (int j = 0; j < columns; j++) {
@@ -272,11 +278,14 @@ static AccelPatch make_patch(Arena *arena, const PatchDef *def, double tolerance
                     vec_get(def->points[i * columns + j], axis) - vec_get(patch.center, axis);
                 int at = patch.cubic ? j * rows + i : i * columns + j;
                 local[axis * rows * columns + at] = x;
-                patch.reach = fmax(patch.reach, fabs(x));
+                reach = fmax(reach, fabs(x));
             }
         }
     }
     patch.local = local;
+    // The weights are positive and sum up to 1; each carries at most 2 n roundings, the double sum
+    // 2 (du + dv) more: 4 (du + dv) in all, and one for the points less the center.
+    patch.rounding = reach * 0x1p-53 * (4.0 * (def->degree_u + def->degree_v) + 1.0);
     return patch;
 }
 

@@ -53,7 +53,8 @@ typedef struct {
     double origin[3], dir[3];
     double error; // bound of the rounding of each coordinate of origin + s dir, |s| < 4
     double s_per_t, s_base;
-    bool far; // too far away for the boxes
+    Vec3 unit; // the ray's dir by its length, zeros kept
+    bool far;  // too far away for the boxes
 } TreeRay;
 
 // False: the ray meets nothing between t_min and t_max.

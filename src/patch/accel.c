@@ -35,6 +35,8 @@ typedef struct {
 typedef struct {
     const Accel *accel;
     Query *query;
+    Vec3 dir;       // of unit length
+    double t_per_s; // 1 / length of the ray's own
     uint32_t patch; // ray is set up for this one
     PatchRay ray;
     Seen seen[MERGE]; // the last ones, a ring
@@ -183,7 +185,7 @@ static bool search_piece(Walk *walk, const Block *block, const Lanes *lanes, int
         return true;
     if (walk->patch != piece->patch) {
         walk->patch = piece->patch;
-        patch_ray_init(&walk->ray, patch, &walk->query->ray);
+        patch_ray_init(&walk->ray, patch, &walk->query->ray, walk->dir, walk->t_per_s);
     }
     BezierRect rect = piece->rect;
     if (lanes->det[lane] > 0.0f) {
@@ -248,6 +250,8 @@ void accel_query(const Accel *accel, Query *query) {
     Walk walk;
     walk.accel = accel;
     walk.query = query;
+    walk.dir = ray.unit;
+    walk.t_per_s = accel->tree.scale / ray.s_per_t;
     walk.patch = UINT32_MAX;
     walk.seen_count = 0;
     tree_walk(&accel->tree, &ray, visit_leaf, &walk);

@@ -324,32 +324,29 @@ typedef struct {
     uint32_t patch;
 } Walk;
 
-// The unit normal of the patch, or x where an edge has collapsed, as POV-Ray has it.
-static Vec3 true_normal(const PatchDef *def, Vec2 at) {
-    int nu = (int)def->degree_u, nv = (int)def->degree_v;
-    double bu[2][17], bv[2][17]; // Bernstein weights and their derivatives
-    for (int which = 0; which < 2; which++) {
-        int n = which ? nv : nu;
-        double t = which ? at.v : at.u;
-        double(*w)[17] = which ? bv : bu;
-        // The weights of degree n - 1 give the derivatives as differences.
-        double low[18] = {0.0, 1.0};
-        for (int k = 1; k < n; k++) {
-            for (int i = k + 1; i > 0; i--)
-                low[i] = low[i] * (1.0 - t) + low[i - 1] * t;
-        }
-        for (int i = 0; i <= n; i++) {
-            double left = low[i], right = i < n ? low[i + 1] : 0.0;
-            w[0][i] = right * (1.0 - t) + left * t;
-            w[1][i] = n * (left - right);
-        }
+// Bernstein weights of degree n and their derivatives.
+static inline void weights(int n, double t, double *w, double *dw) {
+    // Those of degree n - 1, shifted by one, give both.
+    double s = 1.0 - t, low[18] = {0.0, 1.0};
+    for (int k = 1; k < n; k++) {
+        for (int i = k + 1; i > 0; i--)
+            low[i] = low[i] * s + low[i - 1] * t;
     }
+    for (int i = 0; i <= n; i++) {
+        w[i] = low[i + 1] * s + low[i] * t;
+        dw[i] = n * (low[i] - low[i + 1]);
+    }
+}
+
+static inline Vec3 normal_of(const Vec3 *points, int nu, int nv, Vec2 at) {
+    double wu[17], du[17], wv[17], dv[17];
+    weights(nu, at.u, wu, du);
+    weights(nv, at.v, wv, dv);
     Vec3 su = vec3(0, 0, 0), sv = vec3(0, 0, 0);
     for (int i = 0; i <= nu; i++) {
-        for (int j = 0; j <= nv; j++) {
-            Vec3 p = def->points[i * (nv + 1) + j];
-            su = vec_madd(su, bu[1][i] * bv[0][j], p);
-            sv = vec_madd(sv, bu[0][i] * bv[1][j], p);
+        for (int j = 0; j <= nv; j++, points++) {
+            su = vec_madd(su, du[i] * wv[j], *points);
+            sv = vec_madd(sv, wu[i] * dv[j], *points);
         }
     }
     Vec3 n = vec_cross(su, sv);
@@ -357,6 +354,13 @@ static Vec3 true_normal(const PatchDef *def, Vec2 at) {
     if (square <= TINY * vec_dot(su, su) * vec_dot(sv, sv))
         return vec3(1, 0, 0);
     return vec_scale(n, 1.0 / sqrt(square));
+}
+
+// The unit normal of the patch, or x where an edge has collapsed, as POV-Ray has it.
+static Vec3 true_normal(const PatchDef *def, Vec2 at) {
+    if (def->degree_u == 3 && def->degree_v == 3)
+        return normal_of(def->points, 3, 3, at); // a copy with loops of known length
+    return normal_of(def->points, (int)def->degree_u, (int)def->degree_v, at);
 }
 
 static PatchHit finish_hit(const Facets *f, const TriangleHit *hit) {
@@ -447,16 +451,22 @@ static void test_quad(Walk *walk, const Quad *q) {
     test_triangle(walk, p, uv_other);
 }
 
-// Conservative: the box is padded by more than the roundings below.
-static bool meets_box(const Walk *walk, const Box *box) {
+static inline void clip(double low, double high, double o, double inverse, double *near,
+                        double *far) {
+    double a = (low - o) * inverse, b = (high - o) * inverse;
+    double from = a < b ? a : b, to = a < b ? b : a;
+    *near = from > *near ? from : *near;
+    *far = to < *far ? to : *far;
+}
+
+// Conservative: the box is padded by more than the roundings here.
+static inline bool meets_box(const Walk *walk, const Box *box) {
+    const Vec3 o = walk->query->ray.org, inverse = walk->inverse;
+    const double pad = walk->pad;
     double near = walk->t_min, far = walk->query->t_max;
-    for (int axis = 0; axis < 3; axis++) {
-        double o = vec_get(walk->query->ray.org, axis), inverse = vec_get(walk->inverse, axis);
-        double a = (vec_get(box->low, axis) - walk->pad - o) * inverse;
-        double b = (vec_get(box->high, axis) + walk->pad - o) * inverse;
-        near = fmax(near, a < b ? a : b);
-        far = fmin(far, a < b ? b : a);
-    }
+    clip(box->low.x - pad, box->high.x + pad, o.x, inverse.x, &near, &far);
+    clip(box->low.y - pad, box->high.y + pad, o.y, inverse.y, &near, &far);
+    clip(box->low.z - pad, box->high.z + pad, o.z, inverse.z, &near, &far);
     return near <= far;
 }
 

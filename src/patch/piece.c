@@ -15,7 +15,7 @@ static const double SHARE = 0.03;
 enum {
     MAX_DEPTH = 20,         // halvings, u and v together
     PIECES_A_PATCH = 4096,  // more are not worth their memory
-    PIECES_IN_ALL = 1 << 22 // about 500 MB; many patches are cut more coarsely
+    PIECES_IN_ALL = 1 << 20  // about 250 MB; many patches are cut more coarsely
 };
 
 typedef struct {
@@ -26,9 +26,9 @@ typedef struct {
 
 typedef struct {
     const AccelPatch *patch;
-    const Bezier *whole; // about its center
     uint32_t number;
     double share, size;
+    double rounding; // bezier_rounding() of the patch about its center
     size_t limit;
     ARRAY(Cut) cuts;
 } Cutter;
@@ -109,64 +109,41 @@ void piece_eval(const AccelPatch *patch, double u, double v, Vec3 out[3]) {
         eval_any(patch, u, v, out);
 }
 
-// The weights are positive and sum up to 1; each carries at most 2 n roundings, the double sum
-// 2 (du + dv) more: 4 (du + dv) 2^-53 in all, and one for the points less the center.
-double piece_rounding(const AccelPatch *patch) {
-    return patch->reach * 0x1p-53 * (4.0 * (patch->def->degree_u + patch->def->degree_v) + 1.0);
-}
-
 // ---- Cutting
 
-// The bound of |S_uu|, from the second differences of the net over the rectangle.
-static double bound_uu(const Bezier *s, double width) {
-    if (s->du < 2)
-        return 0.0;
-    double largest = 0.0;
-    for (int i = 0; i + 2 <= s->du; i++) {
-        for (int j = 0; j <= s->dv; j++) {
-            Vec3 d = vec_add(vec_sub(bezier_at(s, i, j), vec_scale(bezier_at(s, i + 1, j), 2.0)),
-                             bezier_at(s, i + 2, j));
-            largest = fmax(largest, vec_length(d));
+// Second differences of a net are derivatives of the surface: at most these lengths.
+typedef struct {
+    double uu, uv, vv;
+} Bends;
+
+static double longer(double square, Vec3 a) {
+    double other = vec_dot(a, a);
+    return other > square ? other : square;
+}
+
+static Bends bends_of(const Bezier *s) {
+    int du = s->du, dv = s->dv, row = dv + 1;
+    double uu = 0.0, uv = 0.0, vv = 0.0;
+    for (int i = 0; i <= du; i++) {
+        for (int j = 0; j <= dv; j++) {
+            const Vec3 *p = &s->p[i * row + j];
+            if (i + 2 <= du)
+                uu = longer(uu, vec_sub(vec_sub(p[2 * row], p[row]), vec_sub(p[row], p[0])));
+            if (j + 2 <= dv)
+                vv = longer(vv, vec_sub(vec_sub(p[2], p[1]), vec_sub(p[1], p[0])));
+            if (i < du && j < dv)
+                uv = longer(uv, vec_sub(vec_sub(p[row + 1], p[row]), vec_sub(p[1], p[0])));
         }
     }
-    return largest * s->du * (s->du - 1) / (width * width);
+    return (Bends){sqrt(uu) * du * (du - 1), sqrt(uv) * du * dv, sqrt(vv) * dv * (dv - 1)};
 }
 
-static double bound_vv(const Bezier *s, double height) {
-    if (s->dv < 2)
-        return 0.0;
-    double largest = 0.0;
-    for (int i = 0; i <= s->du; i++) {
-        for (int j = 0; j + 2 <= s->dv; j++) {
-            Vec3 d = vec_add(vec_sub(bezier_at(s, i, j), vec_scale(bezier_at(s, i, j + 1), 2.0)),
-                             bezier_at(s, i, j + 2));
-            largest = fmax(largest, vec_length(d));
-        }
-    }
-    return largest * s->dv * (s->dv - 1) / (height * height);
-}
+// A net halved MAX_DEPTH times is off by MAX_DEPTH (du + dv) 2^-53 of the largest coordinate, one
+// for each midpoint on the way. That is less than 7 bezier_rounding(); one more is for the QI net.
+static double net_rounding(const Cutter *k) { return 8.0 * k->rounding; }
 
-static double bound_uv(const Bezier *s, double area) {
-    double largest = 0.0;
-    for (int i = 0; i < s->du; i++) {
-        for (int j = 0; j < s->dv; j++) {
-            Vec3 d = vec_sub(vec_sub(bezier_at(s, i + 1, j + 1), bezier_at(s, i + 1, j)),
-                             vec_sub(bezier_at(s, i, j + 1), bezier_at(s, i, j)));
-            largest = fmax(largest, vec_length(d));
-        }
-    }
-    return largest * s->du * s->dv / area;
-}
-
-// Upwards, with room for the rounding of the differences of a net whose points are off by `error`.
-static float bound_up(double bound, double error) {
-    double up = (bound + error) * (1.0 + 0x1p-20) + DBL_MIN;
-    return up < (double)FLT_MAX ? (float)up : INFINITY;
-}
-
-// The affine part of the net, the box of the rest, and the box of the surface.
-static void make_cut(const Cutter *k, const Bezier *s, const Bezier *net, BezierRect rect,
-                     Cut *out) {
+// The affine part of the net and the box of the rest.
+static void measure(const Cutter *k, const Bezier *s, const Bezier *net, Cut *out) {
     int du = s->du, dv = s->dv;
     Vec3 a = bezier_at(net, 0, 0), b = bezier_at(net, 0, dv);
     Vec3 c = bezier_at(net, du, 0), d = bezier_at(net, du, dv);
@@ -174,65 +151,115 @@ static void make_cut(const Cutter *k, const Bezier *s, const Bezier *net, Bezier
     out->ev = vec_scale(vec_add(vec_sub(b, a), vec_sub(d, c)), 0.5);
     Box rest = box_empty();
     for (int i = 0; i <= du; i++) {
-        for (int j = 0; j <= dv; j++) {
-            Vec3 affine = vec_madd(vec_scale(out->eu, (double)i / du), (double)j / dv, out->ev);
-            rest = box_extend(rest, vec_sub(bezier_at(net, i, j), affine));
-        }
+        Vec3 along = vec_scale(out->eu, (double)i / du), step = vec_scale(out->ev, 1.0 / dv);
+        for (int j = 0; j <= dv; j++)
+            rest = box_extend(rest, vec_sub(bezier_at(net, i, j), vec_madd(along, j, step)));
     }
     out->c = vec_scale(vec_add(rest.low, rest.high), 0.5);
-    // bezier_rounding() covers the net; the affine part adds as much again.
-    double error = 2.0 * bezier_rounding(k->whole);
-    Vec3 slack = vec3(error, error, error), e = quasi_deviation_axes(s);
-    out->rho = vec_add(vec_scale(vec_sub(rest.high, rest.low), 0.5), vec_add(e, slack));
-    Box hull = bezier_bounds(s), thick = bezier_bounds(net);
-    hull = (Box){vec_sub(hull.low, slack), vec_add(hull.high, slack)};
-    e = vec_add(e, slack);
-    out->box.low = vec_max(hull.low, vec_sub(thick.low, e));
-    out->box.high = vec_min(hull.high, vec_add(thick.high, e));
-    double width = rect.u1 - rect.u0, height = rect.v1 - rect.v0;
-    error = 8.0 * bezier_rounding(k->whole);
-    out->piece =
-        (Piece){rect, bound_up(bound_uu(s, width), error * du * du / (width * width)),
-                bound_up(bound_uv(s, width * height), error * du * dv / (width * height)),
-                bound_up(bound_vv(s, height), error * dv * dv / (height * height)), k->number};
+    double error = net_rounding(k) + 2.0 * k->rounding; // of the affine part
+    Vec3 slack = vec3(error, error, error);
+    out->rho = vec_add(vec_scale(vec_sub(rest.high, rest.low), 0.5),
+                       vec_add(quasi_deviation_axes(s), slack));
 }
 
-// Is a cut across u (rather than v) what makes the piece flatter? A bend of second differences D
-// in degree n has the sag n^2 D / 8; a twist gives way to either, then the longer side is cut.
+// Upwards, with room for the rounding of differences of points that are off by `error`.
+static float bound_up(double bound, double error) {
+    double up = (bound + error) * (1.0 + 0x1p-20) + DBL_MIN;
+    return up < (double)FLT_MAX ? (float)up : INFINITY;
+}
+
+// What float cannot hold is left out: it only makes a guess better.
+static float to_float(double x) { return fabs(x) < (double)FLT_MAX ? (float)x : 0.0f; }
+
+// The rest of what is to be known of a piece.
+static void complete(const Cutter *k, const Bezier *s, const Bezier *net, BezierRect rect,
+                     Cut *out) {
+    double error = net_rounding(k);
+    Vec3 slack = vec3(error, error, error), e = vec_add(quasi_deviation_axes(s), slack);
+    Box hull = bezier_bounds(s), thick = bezier_bounds(net);
+    out->box.low = vec_max(vec_sub(hull.low, slack), vec_sub(thick.low, e));
+    out->box.high = vec_min(vec_add(hull.high, slack), vec_add(thick.high, e));
+    int du = s->du, dv = s->dv;
+    double width = rect.u1 - rect.u0, height = rect.v1 - rect.v0;
+    double uu = 1.0 / (width * width), uv = 1.0 / (width * height), vv = 1.0 / (height * height);
+    Bends bends = bends_of(s);
+    error *= 8.0; // four points, in length
+    out->piece = (Piece){.rect = rect,
+                         .muu = bound_up(bends.uu * uu, error * du * du * uu),
+                         .muv = bound_up(bends.uv * uv, error * du * dv * uv),
+                         .mvv = bound_up(bends.vv * vv, error * dv * dv * vv),
+                         .patch = k->number};
+    BezierJet jet;
+    bezier_eval2(s, 0.5, 0.5, &jet);
+    for (int axis = 0; axis < 3; axis++) {
+        out->piece.suu[axis] = to_float(vec_get(jet.suu, axis) * uu);
+        out->piece.suv[axis] = to_float(vec_get(jet.suv, axis) * uv);
+        out->piece.svv[axis] = to_float(vec_get(jet.svv, axis) * vv);
+    }
+}
+
+// Is a cut across u (rather than v) what makes the piece flatter? A second derivative D has the
+// sag D / 8; a twist gives way to either cut, then the longer side is taken.
 static bool cut_across_u(const Bezier *s, const Cut *cut) {
-    QuasiDifferences d = quasi_differences(s);
-    double bend_u = d.length_u * s->du * s->du / 8.0, bend_v = d.length_v * s->dv * s->dv / 8.0;
+    Bends bends = bends_of(s);
     Vec3 twist = vec_sub(vec_sub(bezier_at(s, s->du, s->dv), bezier_at(s, s->du, 0)),
                          vec_sub(bezier_at(s, 0, s->dv), bezier_at(s, 0, 0)));
-    if (vec_length(twist) / 4.0 > fmax(bend_u, bend_v))
+    if (2.0 * vec_length(twist) > fmax(bends.uu, bends.vv))
         return vec_length(cut->eu) > vec_length(cut->ev);
-    return bend_u > bend_v;
+    return bends.uu > bends.vv;
 }
 
-static void cut_rect(Cutter *k, BezierRect rect, int depth) {
-    Bezier s, net;
-    bezier_copy(&s, k->whole);
-    bezier_restrict(&s, rect, &s);
-    quasi_net(&s, &net);
+// Both halves of n + 1 points, `step` apart, by midpoints.
+static void halve_line(int n, int step, const Vec3 *from, Vec3 *low, Vec3 *high) {
+    Vec3 row[BEZIER_MAX_DEGREE + 1];
+    for (int i = 0; i <= n; i++)
+        row[i] = from[i * step];
+    for (int k = 0; k <= n; k++) {
+        low[k * step] = row[0];
+        high[(n - k) * step] = row[n - k];
+        for (int i = 0; i < n - k; i++)
+            row[i] = vec_scale(vec_add(row[i], row[i + 1]), 0.5);
+    }
+}
+
+static void halve(const Bezier *s, bool across_u, Bezier *low, Bezier *high) {
+    int row = s->dv + 1;
+    low->du = high->du = s->du;
+    low->dv = high->dv = s->dv;
+    if (across_u) {
+        for (int j = 0; j < row; j++)
+            halve_line(s->du, row, s->p + j, low->p + j, high->p + j);
+    } else {
+        for (int i = 0; i < bezier_count(s); i += row)
+            halve_line(s->dv, 1, s->p + i, low->p + i, high->p + i);
+    }
+}
+
+static void cut_rect(Cutter *k, const Bezier *s, BezierRect rect, int depth) {
+    Bezier net;
+    quasi_net(s, &net);
     Cut cut;
-    make_cut(k, &s, &net, rect, &cut);
+    measure(k, s, &net, &cut);
     // Size is not taken below a sixteenth of the patch's: near a collapsed edge pieces stay wide
     // for their length however often they are cut.
     double size = fmax(fmax(vec_length(cut.eu), vec_length(cut.ev)), k->size / 16.0);
-    double thick = vec_length(cut.rho);
-    // Thickness of rounding alone (4 sqrt(3) of it, see make_cut) does not go away.
-    bool enough = thick <= fmax(k->share * size, 8.0 * bezier_rounding(k->whole));
+    // Thickness of rounding alone, 10 sqrt(3) of it, does not go away.
+    bool enough = vec_length(cut.rho) <= fmax(k->share * size, 20.0 * k->rounding);
     if (enough || depth == MAX_DEPTH || k->cuts.count > k->limit) {
+        complete(k, s, &net, rect, &cut);
         array_push(&k->cuts, cut);
         return;
     }
     BezierRect low = rect, high = rect;
-    if (cut_across_u(&s, &cut))
+    bool across_u = cut_across_u(s, &cut);
+    if (across_u)
         low.u1 = high.u0 = 0.5 * (rect.u0 + rect.u1);
     else
         low.v1 = high.v0 = 0.5 * (rect.v0 + rect.v1);
-    cut_rect(k, low, depth + 1);
-    cut_rect(k, high, depth + 1);
+    Bezier half[2];
+    halve(s, across_u, &half[0], &half[1]);
+    cut_rect(k, &half[0], low, depth + 1);
+    cut_rect(k, &half[1], high, depth + 1);
 }
 
 static void cut_patch(Cutter *k) {
@@ -242,15 +269,14 @@ static void cut_patch(Cutter *k) {
     whole.dv = (int)def->degree_v;
     for (int i = 0; i < bezier_count(&whole); i++)
         whole.p[i] = vec_sub(def->points[i], k->patch->center);
-    k->whole = &whole;
+    k->rounding = bezier_rounding(&whole);
     k->size = bezier_diameter(&whole);
-    cut_rect(k, bezier_whole(), 0);
+    cut_rect(k, &whole, bezier_whole(), 0);
     while (k->cuts.count > k->limit) {
         k->cuts.count = 0;
         k->share *= 1.5;
-        cut_rect(k, bezier_whole(), 0);
+        cut_rect(k, &whole, bezier_whole(), 0);
     }
-    k->whole = NULL;
 }
 
 // ---- Layout
@@ -264,7 +290,7 @@ static AccelPatch make_patch(Arena *arena, const PatchDef *def, double tolerance
                         .center = vec_add(vec_scale(box.low, 0.5), vec_scale(box.high, 0.5)),
                         .cubic = rows == 4 && columns == 4,
                         .tolerance = tolerance * vec_length(vec_sub(box.high, box.low))};
-    double *local = ARENA_ARRAY(arena, double, (size_t)(3 * rows * columns));
+    double *local = ARENA_ARRAY(arena, double, (size_t)(3 * rows * columns)), reach = 0.0;
     for (int axis = 0; axis < 3; axis++) {
         for (int i = 0; i < rows; i++) {
             for (int j = 0; j < columns; j++) {
@@ -272,11 +298,14 @@ static AccelPatch make_patch(Arena *arena, const PatchDef *def, double tolerance
                     vec_get(def->points[i * columns + j], axis) - vec_get(patch.center, axis);
                 int at = patch.cubic ? j * rows + i : i * columns + j;
                 local[axis * rows * columns + at] = x;
-                patch.reach = fmax(patch.reach, fabs(x));
+                reach = fmax(reach, fabs(x));
             }
         }
     }
     patch.local = local;
+    // The weights are positive and sum up to 1; each carries at most 2 n roundings, the double sum
+    // 2 (du + dv) more: 4 (du + dv) in all, and one for the points less the center.
+    patch.rounding = reach * 0x1p-53 * (4.0 * (def->degree_u + def->degree_v) + 1.0);
     return patch;
 }
 

@@ -24,16 +24,16 @@ enum { BLOCK_LANES = 8 };
 typedef struct {
     const PatchDef *def;
     Vec3 center;
-    const double
-        *local;       // points less center: cubic: [3][4 columns][4 rows], else [3][rows][columns]
-    bool cubic;       // bi-degree (3,3)
-    double reach;     // max |local coordinate|
-    double tolerance; // scene units
+    const double *local; // points less center; cubic: [3][columns][rows], else [3][rows][columns]
+    bool cubic;          // bi-degree (3,3)
+    double rounding;     // of a coordinate of S; of its derivatives: times twice the degree
+    double tolerance;    // scene units
 } AccelPatch;
 
 typedef struct {
     BezierRect rect;
-    float muu, muv, mvv; // bounds of the lengths of the second derivatives, global parameters
+    float muu, muv, mvv; // bounds of the lengths of the second derivatives, patch's parameters
+    float suu[3], suv[3], svv[3]; // about what they are
     uint32_t patch;
 } Piece;
 
@@ -58,9 +58,7 @@ typedef struct Accel {
 // Cuts the patches (in parallel) and builds the tree. defs and their points must stay.
 void pieces_build(Arena *arena, const PatchDef *defs, size_t count, double tolerance, Accel *accel);
 
-// S, dS/du and dS/dv at (u,v) in [0,1]^2, about the patch's center. Rounding of S, each coordinate:
-// at most piece_rounding(); of the derivatives: times twice the degree.
+// S, dS/du and dS/dv at (u,v) in [0,1]^2, about the patch's center.
 void piece_eval(const AccelPatch *patch, double u, double v, Vec3 out[3]);
-double piece_rounding(const AccelPatch *patch);
 
 #endif

@@ -14,75 +14,83 @@
 // alpha |m1| + beta |m2| + alpha beta. (The contraction test of Krawczyk needs the same quantities
 // and asks for the same order of smallness.)
 //
-// Where that cannot be shown (silhouettes, folds, collapsed edges) qi_reduce_* decides.
+// Once a root is known to be single, Newton steps sharpen it; the residual at the end, with the
+// same Taylor rest, is the hit's certificate.
+//
+// Where singleness cannot be shown (silhouettes, folds, collapsed edges) qi_reduce_* decides.
 #include "patch/root.h"
 
 #include "patch/qi.h"
 
-#include <float.h>
+enum {
+    MAX_STEPS = 12,    // of an X that shrinks; a single root takes one or two
+    SHARPEN_STEPS = 6, // two, as a rule
+};
+// Of the normal, a sine: pictures have 16 bits.
+static const double NORMAL_ERROR = 1e-6;
 
-// A unique root takes two or three steps; X that does not shrink is not worth more.
-enum { MAX_STEPS = 12, FINISH_STEPS = 4 };
-static const double NORMAL_ERROR = 1e-9; // a sine; pictures have 16 bits
-
-// u = 2^-53. org: the difference to the center 1 u of its size A, the shift along the ray 1 u of
-// the same size, the sum 1 u: 3 A per coordinate, 6 A in length; t_base + s t_per_s: 2 u of the
-// distance, below 4 A. S: piece_rounding() per coordinate, below 2 of it in length.
-void patch_ray_init(PatchRay *out, const AccelPatch *patch, const Ray *ray) {
-    out->patch = patch;
-    double largest = fmax(fabs(ray->dir.x), fmax(fabs(ray->dir.y), fabs(ray->dir.z)));
-    Vec3 dir = vec_scale(ray->dir, 1.0 / largest);
-    double length = vec_length(dir);
-    out->dir = vec_scale(dir, 1.0 / length);
-    out->t_per_s = 1.0 / (length * largest);
-    Vec3 away = vec_sub(ray->org, patch->center);
-    double shift = -vec_dot(away, out->dir);
-    out->t_base = shift * out->t_per_s;
-    out->org = vec_madd(away, shift, out->dir);
-    double size = fabs(away.x) + fabs(away.y) + fabs(away.z);
-    out->error = 12.0 * 0x1p-53 * size + 2.0 * piece_rounding(patch);
+static inline double larger(double a, double b) { return a > b ? a : b; }
+static inline double smaller(double a, double b) { return a < b ? a : b; }
+static inline double clamp(double x, double low, double high) {
+    return x < low ? low : x > high ? high : x;
+}
+static inline double length1(Vec3 a) { return fabs(a.x) + fabs(a.y) + fabs(a.z); }
+static inline Vec3 from_floats(const float a[3]) {
+    return vec3((double)a[0], (double)a[1], (double)a[2]);
 }
 
-// X and what is known about it at its middle.
+// The surface about one point, as the ray sees it.
 typedef struct {
-    double u, v, hu, hv;
-    Vec3 s, su, sv, r; // r = org - s
+    double u, v;
+    Vec3 su, sv, r; // r = org - S
     Vec3 m1, m2;
-    double l1, l2, det;
-    double rest;      // bound of the quadratic rest over X, and of all rounding of r
-    double det_error; // rounding of det
-    double nu, nv;    // r . m1, r . m2
-    double wu, wv;    // their uncertainty
-    bool single;      // at most one root in X
-} Cell;
+    double det, nu, nv; // nu = r . m1, nv = r . m2
+} Point;
 
-static void cell_look(const PatchRay *ray, const Piece *piece, Cell *c) {
+static inline void look(const PatchRay *ray, double u, double v, Point *p) {
     Vec3 out[3];
-    piece_eval(ray->patch, c->u, c->v, out);
-    c->s = out[0];
-    c->su = out[1];
-    c->sv = out[2];
-    c->r = vec_sub(ray->org, c->s);
-    c->m1 = vec_cross(ray->dir, c->sv);
-    c->m2 = vec_cross(c->su, ray->dir);
-    c->det = vec_dot(c->su, c->m1);
-    c->l1 = vec_length(c->m1);
-    c->l2 = vec_length(c->m2);
-    c->nu = vec_dot(c->r, c->m1);
-    c->nv = vec_dot(c->r, c->m2);
-    double lu = vec_length(c->su), lv = vec_length(c->sv), lr = vec_length(c->r);
+    piece_eval(ray->patch, u, v, out);
+    p->u = u;
+    p->v = v;
+    p->su = out[1];
+    p->sv = out[2];
+    p->r = vec_sub(ray->org, out[0]);
+    p->m1 = vec_cross(ray->dir, out[2]);
+    p->m2 = vec_cross(out[1], ray->dir);
+    p->det = vec_dot(out[1], p->m1);
+    p->nu = vec_dot(p->r, p->m1);
+    p->nv = vec_dot(p->r, p->m2);
+}
+
+// What rounding does to det. Cross products err by 4 u of the product of the lengths in each
+// coordinate (dir is off by 2 u), dot products by 3 u more: under 16 u in all. The derivatives err
+// by 2 x degree <= 32 times the rounding of S in each coordinate.
+static const double U16 = 0x1p-49;
+static inline double slope_error(const PatchRay *ray) { return 64.0 * ray->patch->rounding; }
+static inline double det_error(const PatchRay *ray, const Point *p) {
+    double lu = length1(p->su), lv = length1(p->sv);
+    return U16 * lu * lv + slope_error(ray) * (lu + lv);
+}
+
+// Bounds over the whole of X, of half sizes hu, hv.
+typedef struct {
+    double det_error;
+    double wu, wv; // uncertainty of nu, nv
+    bool single;   // at most one root in X
+} Bounds;
+
+static inline Bounds bound(const PatchRay *ray, const Piece *piece, const Point *p, double hu,
+                           double hv) {
     double muu = (double)piece->muu, muv = (double)piece->muv, mvv = (double)piece->mvv;
-    c->rest = 0.5 * (muu * c->hu * c->hu + mvv * c->hv * c->hv) + muv * c->hu * c->hv + ray->error;
-    // Cross products err by 4 u of the product of the lengths in each coordinate (dir is off by
-    // 2 u), dot products by 3 u more: under 16 u in all. The derivatives by 2 x degree <= 32 times
-    // the rounding of S, in each coordinate.
-    const double u16 = 0x1p-49;
-    double slope = 64.0 * piece_rounding(ray->patch);
-    c->wu = c->rest * c->l1 + u16 * lr * lv;
-    c->wv = c->rest * c->l2 + u16 * lr * lu;
-    c->det_error = u16 * lu * lv + slope * (lu + lv);
-    double alpha = muu * c->hu + muv * c->hv + slope, beta = muv * c->hu + mvv * c->hv + slope;
-    c->single = fabs(c->det) - c->det_error > alpha * c->l1 + beta * c->l2 + alpha * beta;
+    double rest = 0.5 * (muu * hu * hu + mvv * hv * hv) + muv * hu * hv + ray->error;
+    double l1 = vec_length(p->m1), l2 = vec_length(p->m2), lr = length1(p->r);
+    double slope = slope_error(ray);
+    double alpha = muu * hu + muv * hv + slope, beta = muv * hu + mvv * hv + slope;
+    Bounds b = {.det_error = det_error(ray, p),
+                .wu = rest * l1 + U16 * lr * length1(p->sv),
+                .wv = rest * l2 + U16 * lr * length1(p->su)};
+    b.single = fabs(p->det) - b.det_error > alpha * l1 + beta * l2 + alpha * beta;
+    return b;
 }
 
 // A span about 0.
@@ -92,41 +100,18 @@ typedef struct {
 
 // The part of [-h, h] that holds all a with det a in n +- w; empty if low > high. A tiny det clips
 // nothing.
-static Span solve(double n, double w, double det, double det_error, double h) {
-    Span all = {-h, h};
-    double steep = fabs(det) - det_error;
-    if (fabs(n) - w > (fabs(det) + det_error) * h)
+static inline Span solve(double n, double w, double det, double error, double h) {
+    double steep = fabs(det) - error;
+    if (fabs(n) - w > (fabs(det) + error) * h)
         return (Span){1.0, 0.0};
-    if (!(steep > det_error))
-        return all;
+    if (!(steep > error))
+        return (Span){-h, h};
     double middle = n / det;
-    double width = (w + det_error * fabs(middle)) / steep * (1.0 + 0x1p-40);
-    return (Span){fmax(-h, middle - width), fmin(h, middle + width)};
-}
-
-static double clamp(double x, double low, double high) {
-    return x < low ? low : x > high ? high : x;
+    double width = (w + error * fabs(middle)) / steep * (1.0 + 0x1p-40);
+    return (Span){larger(-h, middle - width), smaller(h, middle + width)};
 }
 
 static bool in_range(const Query *query, double t) { return t >= query->t_min && t < query->t_max; }
-
-// The hit at the middle plus (a,b): its own position, normal and bound.
-static void make_root(const PatchRay *ray, const Piece *piece, const Cell *c, double a, double b,
-                      Root *root) {
-    Vec3 off = vec_sub(vec_sub(c->r, vec_scale(c->su, a)), vec_scale(c->sv, b));
-    double s = -vec_dot(off, ray->dir);
-    double rest = 0.5 * ((double)piece->muu * a * a + (double)piece->mvv * b * b) +
-                  (double)piece->muv * fabs(a * b);
-    root->hit = (PatchHit){.t = ray->t_base + s * ray->t_per_s,
-                           .u = clamp(c->u + a, 0.0, 1.0),
-                           .v = clamp(c->v + b, 0.0, 1.0),
-                           .bound = vec_length(vec_madd(off, s, ray->dir)) + rest + ray->error,
-                           .id = ray->patch->def->id};
-    double steep = fabs(c->det);
-    root->error_u = root->hit.bound * c->l1 / steep;
-    root->error_v = root->hit.bound * c->l2 / steep;
-    root->sign = c->det > 0.0 ? 1 : -1;
-}
 
 // ---- What cannot be shown single
 
@@ -137,22 +122,25 @@ typedef struct {
     bool go_on;
 } Fallback;
 
+// How far apart two values for one root may be, given the distance between ray and surface.
+static void set_errors(const Point *p, Root *root) {
+    double steep = fabs(p->det);
+    root->sign = p->det > 0.0 ? 1 : -1;
+    root->error_u = 2.0 * root->hit.bound * vec_length(p->m1) / steep;
+    root->error_v = 2.0 * root->hit.bound * vec_length(p->m2) / steep;
+}
+
 static void take_qi(void *context, const QiHit *hit) {
     Fallback *f = context;
     if (!f->go_on)
         return;
-    const PatchRay *ray = f->ray;
-    Root root = {.hit = {hit->t, hit->u, hit->v, hit->normal, hit->bound, ray->patch->def->id}};
-    Vec3 out[3];
-    piece_eval(ray->patch, hit->u, hit->v, out);
-    Vec3 m1 = vec_cross(ray->dir, out[2]), m2 = vec_cross(out[1], ray->dir);
-    double det = vec_dot(out[1], m1), lu = vec_length(out[1]), lv = vec_length(out[2]);
+    Root root = {.hit = {hit->t, hit->u, hit->v, hit->normal, hit->bound, f->ray->patch->def->id}};
+    Point p;
+    look(f->ray, hit->u, hit->v, &p);
+    double lu = vec_length(p.su), lv = vec_length(p.sv);
     // Flatter than this the two sides of a fold are one as far as the bound can tell.
-    if (det * det > lu * lv * hit->bound * (lu + lv)) {
-        root.sign = det > 0.0 ? 1 : -1;
-        root.error_u = 2.0 * hit->bound * vec_length(m1) / fabs(det);
-        root.error_v = 2.0 * hit->bound * vec_length(m2) / fabs(det);
-    }
+    if (p.det * p.det > lu * lv * hit->bound * (lu + lv))
+        set_errors(&p, &root);
     f->go_on = f->take(f->context, &root);
 }
 
@@ -174,79 +162,95 @@ static bool search_qi(const PatchRay *ray, BezierRect rect, Query *query, RootTa
     return f.go_on;
 }
 
-// ---- The search
+// ---- A single root
 
-// The root is as good as the tolerance asks, its t within slack: look at the point itself, for its
-// normal, and take the correction that this gives for nothing.
-static bool finish(const PatchRay *ray, const Piece *piece, const Root *rough, double slack,
-                   Query *query, RootTake take, void *context) {
-    // Out of the limits whatever the last digits say?
-    if (rough->hit.t - slack >= query->t_max || rough->hit.t + slack < query->t_min)
-        return true;
+typedef enum { SHARPEN_NO, SHARPEN_TAKEN, SHARPEN_STOP } Sharpened;
+
+// From a point near the only root of X to that root. The last correction needs no new look: its
+// Taylor rest is part of the bound. SHARPEN_NO: there is none as near as the tolerance asks.
+static Sharpened sharpen(const PatchRay *ray, const Piece *piece, double u, double v, Query *query,
+                         RootTake take, void *context) {
     const BezierRect *rect = &piece->rect;
-    Cell c = {.u = rough->hit.u, .v = rough->hit.v};
-    Root root, middle;
-    for (int step = 0; step < FINISH_STEPS; step++) {
+    const double muu = (double)piece->muu, muv = (double)piece->muv, mvv = (double)piece->mvv;
+    // What rounding leaves is as good as can be had.
+    const double tolerance = larger(ray->patch->tolerance, 2.0 * ray->error);
+    for (int step = 0; step < SHARPEN_STEPS; step++) {
         query->stats.newton++;
-        cell_look(ray, piece, &c);
-        double a = 0.0, b = 0.0;
-        if (fabs(c.det) > 2.0 * c.det_error) {
-            a = clamp(c.nu / c.det, rect->u0 - c.u, rect->u1 - c.u);
-            b = clamp(c.nv / c.det, rect->v0 - c.v, rect->v1 - c.v);
-        }
-        make_root(ray, piece, &c, a, b, &root);
-        make_root(ray, piece, &c, 0.0, 0.0, &middle);
-        if (!(root.hit.bound <= middle.hit.bound)) {
-            root = middle; // no better: the ray passes outside the patch
-            break;
-        }
-        // Does the correction turn the normal? Then look there.
-        double turn_u = (double)piece->muu * fabs(a) + (double)piece->muv * fabs(b);
-        double turn_v = (double)piece->muv * fabs(a) + (double)piece->mvv * fabs(b);
-        double turn = turn_u * vec_length(c.sv) + turn_v * vec_length(c.su);
-        if (turn <= NORMAL_ERROR * vec_length(vec_cross(c.su, c.sv)))
-            break;
-        c.u = root.hit.u;
-        c.v = root.hit.v;
+        Point p;
+        look(ray, u, v, &p);
+        double steep = 1.0 / p.det;
+        double a = clamp(p.nu * steep, rect->u0 - u, rect->u1 - u);
+        double b = clamp(p.nv * steep, rect->v0 - v, rect->v1 - v);
+        if (!(fabs(p.det) > 0.0)) // also NaN
+            return SHARPEN_NO;
+        double turn_u = muu * fabs(a) + muv * fabs(b), turn_v = muv * fabs(a) + mvv * fabs(b);
+        double rest = 0.5 * (turn_u * fabs(a) + turn_v * fabs(b));
+        Vec3 off = vec_sub(vec_sub(p.r, vec_scale(p.su, a)), vec_scale(p.sv, b));
+        double s = -vec_dot(off, ray->dir);
+        Vec3 across = vec_madd(off, s, ray->dir), n = vec_cross(p.su, p.sv);
+        double distance = vec_length(across) + rest + ray->error, area = vec_length(n);
+        // Does the correction turn the normal? Then look there. Where it goes nowhere (a ray beside
+        // the patch's edge) the turn is 0.
+        double turn = turn_u * length1(p.sv) + turn_v * length1(p.su);
+        u = clamp(u + a, 0.0, 1.0);
+        v = clamp(v + b, 0.0, 1.0);
+        if (!(distance <= tolerance && turn <= NORMAL_ERROR * area))
+            continue;
+        Root root = {.hit = {.t = ray->t_base + s * ray->t_per_s,
+                             .u = u,
+                             .v = v,
+                             .normal = vec_scale(n, 1.0 / area),
+                             .bound = distance,
+                             .id = ray->patch->def->id}};
+        if (!in_range(query, root.hit.t))
+            return SHARPEN_TAKEN;
+        if (query->kind == QUERY_ALL)
+            set_errors(&p, &root);
+        return take(context, &root) ? SHARPEN_TAKEN : SHARPEN_STOP;
     }
-    if (!in_range(query, root.hit.t))
-        return true;
-    root.hit.normal = vec_normalize(vec_cross(c.su, c.sv));
-    return take(context, &root);
+    return SHARPEN_NO;
+}
+
+// Newton's step from the middle of X, and what the second derivatives add to it.
+static inline void guess(const Piece *piece, const Point *p, Span in_u, Span in_v, double *u,
+                         double *v) {
+    double steep = 1.0 / p->det, a = p->nu * steep, b = p->nv * steep;
+    Vec3 bend = vec_scale(from_floats(piece->suu), 0.5 * a * a);
+    bend = vec_madd(bend, a * b, from_floats(piece->suv));
+    bend = vec_madd(bend, 0.5 * b * b, from_floats(piece->svv));
+    a -= vec_dot(bend, p->m1) * steep;
+    b -= vec_dot(bend, p->m2) * steep;
+    *u = p->u + clamp(a, in_u.low, in_u.high);
+    *v = p->v + clamp(b, in_v.low, in_v.high);
 }
 
 bool root_search(const PatchRay *ray, const Piece *piece, BezierRect rect, Query *query,
                  RootTake take, void *context) {
-    // What rounding leaves is as good as can be had.
-    const double tolerance = fmax(ray->patch->tolerance, 2.0 * ray->error);
-    bool single = false;
     for (int step = 0; step < MAX_STEPS; step++) {
-        Cell c = {.u = 0.5 * (rect.u0 + rect.u1), .v = 0.5 * (rect.v0 + rect.v1)};
         // The rectangle's corners and its middle are rounded: half sizes that surely hold it.
-        c.hu = (0.5 * (rect.u1 - rect.u0)) * (1.0 + 0x1p-50) + 0x1p-53;
-        c.hv = (0.5 * (rect.v1 - rect.v0)) * (1.0 + 0x1p-50) + 0x1p-53;
+        double hu = 0.5 * (rect.u1 - rect.u0) * (1.0 + 0x1p-50) + 0x1p-53;
+        double hv = 0.5 * (rect.v1 - rect.v0) * (1.0 + 0x1p-50) + 0x1p-53;
+        Point p;
         query->stats.newton++;
-        cell_look(ray, piece, &c);
-        Span a = solve(c.nu, c.wu, c.det, c.det_error, c.hu);
-        Span b = solve(c.nv, c.wv, c.det, c.det_error, c.hv);
+        look(ray, 0.5 * (rect.u0 + rect.u1), 0.5 * (rect.v0 + rect.v1), &p);
+        Bounds of = bound(ray, piece, &p, hu, hv);
+        Span a = solve(p.nu, of.wu, p.det, of.det_error, hu);
+        Span b = solve(p.nv, of.wv, p.det, of.det_error, hv);
         if (a.low > a.high || b.low > b.high)
             return true;
-        single |= c.single;
-        if (single && fabs(c.det) > 2.0 * c.det_error) {
-            Root root;
-            make_root(ray, piece, &c, clamp(c.nu / c.det, a.low, a.high),
-                      clamp(c.nv / c.det, b.low, b.high), &root);
-            if (root.hit.bound <= tolerance) {
-                double slack = root.hit.bound + 2.0 * vec_length(c.su) * root.error_u +
-                               2.0 * vec_length(c.sv) * root.error_v;
-                return finish(ray, piece, &root, slack * ray->t_per_s, query, take, context);
-            }
+        if (of.single) {
+            double u, v;
+            guess(piece, &p, a, b, &u, &v);
+            Sharpened done =
+                sharpen(ray, piece, clamp(u, 0.0, 1.0), clamp(v, 0.0, 1.0), query, take, context);
+            if (done != SHARPEN_NO)
+                return done == SHARPEN_TAKEN;
         }
-        double kept = (a.high - a.low) * (b.high - b.low) / (4.0 * c.hu * c.hv);
-        rect = (BezierRect){clamp(c.u + a.low - 0x1p-53, rect.u0, rect.u1),
-                            clamp(c.u + a.high + 0x1p-53, rect.u0, rect.u1),
-                            clamp(c.v + b.low - 0x1p-53, rect.v0, rect.v1),
-                            clamp(c.v + b.high + 0x1p-53, rect.v0, rect.v1)};
+        double kept = (a.high - a.low) * (b.high - b.low) / (4.0 * hu * hv);
+        rect = (BezierRect){clamp(p.u + a.low - 0x1p-53, rect.u0, rect.u1),
+                            clamp(p.u + a.high + 0x1p-53, rect.u0, rect.u1),
+                            clamp(p.v + b.low - 0x1p-53, rect.v0, rect.v1),
+                            clamp(p.v + b.high + 0x1p-53, rect.v0, rect.v1)};
         if (!(kept < 0.5))
             break;
     }

@@ -250,30 +250,40 @@ void tree_build(Arena *arena, const Box *boxes, uint32_t count, uint32_t leaf_si
 // product by one more, that is 3 u x 2. Together under 12 u = 12/16 of TREE_PAD, so the computed
 // entry never comes after the true one. Likewise for the exit. Replacing a direction component
 // below 2^-60 by 2^-60 moves X by less than 2^-57.
+static inline double larger(double a, double b) { return a > b ? a : b; }
+static inline double smaller(double a, double b) { return a < b ? a : b; }
+
 bool tree_ray_begin(const Tree *tree, const Ray *ray, double t_min, double t_max, TreeRay *out) {
     Vec3 dir = ray->dir;
-    double largest = fmax(fabs(dir.x), fmax(fabs(dir.y), fabs(dir.z)));
+    double largest = larger(fabs(dir.x), larger(fabs(dir.y), fabs(dir.z)));
     if (tree->root == TREE_NONE || !(largest > 0.0) || !isfinite(largest) || !(t_min < t_max))
         return false;
-    dir = vec_scale(dir, 1.0 / largest);
+    // Squares of very large or small lengths would not fit.
+    double power = 1.0;
+    if (largest < 0x1p-500 || largest > 0x1p500) {
+        power = largest;
+        dir = vec_scale(dir, 1.0 / largest);
+    }
     double length = vec_length(dir);
-    out->s_per_t = length * largest * tree->scale;
+    out->unit = vec_scale(dir, 1.0 / length);
+    out->s_per_t = length * power * tree->scale;
     const double grown = 1.0 + 4.0 * (double)TREE_PAD;
-    double entry = 0.0, exit = INFINITY, reach = 0.0;
+    double entry = 0.0, exit = INFINITY, reach = 0.0, inverse[3];
     for (int axis = 0; axis < 3; axis++) {
-        double d = vec_get(dir, axis) / length;
+        double d = vec_get(out->unit, axis);
         if (fabs(d) < 0x1p-60)
             d = copysign(0x1p-60, d);
         double o = (vec_get(ray->org, axis) - vec_get(tree->center, axis)) * tree->scale;
-        double a = (-grown - o) / d, b = (grown - o) / d;
-        entry = fmax(entry, fmin(a, b));
-        exit = fmin(exit, fmax(a, b));
-        reach = fmax(reach, fabs(o));
+        inverse[axis] = 1.0 / d;
+        double a = (-grown - o) * inverse[axis], b = (grown - o) * inverse[axis];
+        entry = larger(entry, smaller(a, b));
+        exit = smaller(exit, larger(a, b));
+        reach = larger(reach, fabs(o));
         out->dir[axis] = d;
         out->origin[axis] = o;
     }
     // The error of the shift: two roundings each of origin, entry x dir and their sum; and dir's
-    // own rounding (three) over the way that is left.
+    // own rounding (four) over the way that is left.
     out->error = (reach + entry + 4.0) * 0x1p-50;
     out->far = !(out->error < 0x1p-23);
     out->s_base = 0.0;
@@ -290,7 +300,7 @@ bool tree_ray_begin(const Tree *tree, const Ray *ray, double t_min, double t_max
     for (int axis = 0; axis < 3; axis++) {
         out->origin[axis] += entry * out->dir[axis];
         out->start[axis] = (float)out->origin[axis];
-        out->inverse[axis] = (float)(1.0 / out->dir[axis]);
+        out->inverse[axis] = (float)inverse[axis];
     }
     return out->s_min <= out->s_max;
 }

@@ -53,7 +53,8 @@ typedef struct {
     double origin[3], dir[3];
     double error; // bound of the rounding of each coordinate of origin + s dir, |s| < 4
     double s_per_t, s_base;
-    bool far; // too far away for the boxes
+    Vec3 unit; // the ray's dir by its length, zeros kept
+    bool far;  // too far away for the boxes
 } TreeRay;
 
 // False: the ray meets nothing between t_min and t_max.
@@ -70,26 +71,41 @@ typedef struct {
     uint32_t child;
 } TreeEntry;
 
-// Tests the eight boxes of a node; appends those met to the stack, the farthest first.
-static inline int tree_push(const TreeNode *node, const TreeRay *ray, TreeEntry *stack, int top) {
-    float near[TREE_WIDTH], far[TREE_WIDTH];
+// Where the ray enters the eight boxes of a node, and whether it does.
+static inline void tree_test(const TreeNode *node, const TreeRay *ray, float *near, int32_t *met) {
+    const float ox = ray->start[0], oy = ray->start[1], oz = ray->start[2];
+    const float ix = ray->inverse[0], iy = ray->inverse[1], iz = ray->inverse[2];
+    const float s_min = ray->s_min, s_max = ray->s_max;
+    const float *x0 = ix < 0.0f ? node->high[0] : node->low[0];
+    const float *x1 = ix < 0.0f ? node->low[0] : node->high[0];
+    const float *y0 = iy < 0.0f ? node->high[1] : node->low[1];
+    const float *y1 = iy < 0.0f ? node->low[1] : node->high[1];
+    const float *z0 = iz < 0.0f ? node->high[2] : node->low[2];
+    const float *z1 = iz < 0.0f ? node->low[2] : node->high[2];
     for (int i = 0; i < TREE_WIDTH; i++) {
-        near[i] = ray->s_min;
-        far[i] = ray->s_max;
+        float from = (x0[i] - ox) * ix, to = (x1[i] - ox) * ix;
+        float a = (y0[i] - oy) * iy, b = (y1[i] - oy) * iy;
+        from = a > from ? a : from;
+        to = b < to ? b : to;
+        a = (z0[i] - oz) * iz;
+        b = (z1[i] - oz) * iz;
+        from = a > from ? a : from;
+        to = b < to ? b : to;
+        from = s_min > from ? s_min : from;
+        to = s_max < to ? s_max : to;
+        near[i] = from;
+        met[i] = from <= to;
     }
-    for (int axis = 0; axis < 3; axis++) {
-        const float o = ray->start[axis], inverse = ray->inverse[axis];
-        const float *first = inverse < 0.0f ? node->high[axis] : node->low[axis];
-        const float *second = inverse < 0.0f ? node->low[axis] : node->high[axis];
-        for (int i = 0; i < TREE_WIDTH; i++) {
-            float a = (first[i] - o) * inverse, b = (second[i] - o) * inverse;
-            near[i] = a > near[i] ? a : near[i];
-            far[i] = b < far[i] ? b : far[i];
-        }
-    }
+}
+
+// Appends the children met to the stack, the farthest first.
+static inline int tree_push(const TreeNode *node, const TreeRay *ray, TreeEntry *stack, int top) {
+    float near[TREE_WIDTH];
+    int32_t met[TREE_WIDTH];
+    tree_test(node, ray, near, met);
     int base = top;
     for (int i = 0; i < TREE_WIDTH; i++) {
-        if (near[i] <= far[i]) {
+        if (met[i]) {
             TreeEntry entry = {near[i], node->child[i]};
             int at = top++;
             for (; at > base && stack[at - 1].near < entry.near; at--)

@@ -124,7 +124,7 @@ static void run_version(Converter *cv) {
     Loc loc = token_loc(cv, token);
     double version = parse_float(cv) * 100 + 0.5;
     if (!(version >= 1 && version < 371))
-        die_at(&loc, "this file requires POV-Ray version %.2f; 3.7 is what is understood here",
+        die_at(&loc, "This file requires POV-Ray version %.2f; 3.7 is what is understood here",
                (version - 0.5) / 100);
     cv->version = (int)version;
     cv->version_set = true;
@@ -153,14 +153,25 @@ void debug_text(Converter *cv, const char *text) {
     }
 }
 
+// Line ends inside become blanks, at the end they go.
+static const char *one_line(Converter *cv, const char *text) {
+    char *line = arena_strdup(cv->arena, text);
+    size_t length = strlen(line);
+    while (length && (line[length - 1] == '\n' || line[length - 1] == ' '))
+        line[--length] = '\0';
+    for (char *p = line; *p; p++)
+        *p = *p == '\n' || *p == '\r' ? ' ' : *p;
+    return line;
+}
+
 static void run_message(Converter *cv, const Token *word) {
     Loc loc = token_loc(cv, word);
     const char *text = string_for_output(cv, parse_string(cv));
     switch (word->code) {
     case KW_error:
-        die_at(&loc, "#error: %s", text);
+        die_at(&loc, "#error: %s", one_line(cv, text));
     case KW_warning:
-        warn_at(&loc, "#warning: %s", text);
+        warn_at(&loc, "#warning: %s", one_line(cv, text));
         return;
     case KW_debug:
         break;
@@ -224,8 +235,10 @@ static void run_plain(Converter *cv, const Token *word) {
 
 void run_directive(Converter *cv, const Token *hash) {
     const Token *word = raw_peek(cv);
-    if (!word)
-        die_unknown(cv, hash);
+    if (!word) {
+        Loc loc = token_loc(cv, hash);
+        die_at(&loc, "Expected 'object or directive', end of file found after '#'");
+    }
     raw_token(cv);
     cv->language->last = word;
     enter_level(cv);

@@ -117,7 +117,7 @@ void promote(double e[5], int *width, int to);
 bool parse_call(Converter *cv, double e[5], int *width, int want);
 bool is_number_keyword(int code); // begins a float of its own or a float function
 bool is_vector_keyword(int code);
-double full_in_parentheses(Converter *cv); // ( FULL )
+double full_in_parentheses(Converter *cv, const char *where); // ( FULL )
 double days_since_2000(void);
 
 // expr_color.c
@@ -218,6 +218,7 @@ typedef struct Language {
     size_t condition_floor; // conditions that belong to outer frames of a macro call
     Frame *spare;
     LIST(Condition) conditions;
+    LIST(const Source *) sources;
     LIST(TokenizedFile) files;
     LIST(const char *) library;
     LIST(uint32_t) seeds; // states of the random streams

@@ -33,6 +33,7 @@ void parse_csg_data(Converter *cv, ObjectNode *object) {
         object_add_child(cv, object, child);
         count++;
     }
+    csg_box_begin(object);
     if (count < 2 && object->keyword != KW_light_group) {
         Loc loc = here(cv);
         warn_at(&loc, "'%s' should have at least two objects", keyword_name(object->keyword));

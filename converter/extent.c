@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The bounding box of an object as POV-Ray keeps it: a low corner and lengths in single precision,
 // a box around the eight corners once a matrix is involved (facts: sdl 2.5, 9; measured with
-// min_extent and max_extent).
+// min_extent and max_extent). Primitives are measured when asked; the box of a CSG is made of its
+// children's once, and then moves by itself, growing with every rotation.
 #include "converter/nodes.h"
 
 #include <math.h>
@@ -50,18 +51,53 @@ static Transform axis_rotation(Vec3 axis) {
     return t;
 }
 
-// A box around the z axis, set up at `origin` along `axis`.
-static Box axial_box(Vec3 origin, Vec3 axis, double radius, double low, double high) {
-    Transform place = transform_translate(origin), turn = axis_rotation(axis);
-    Transform t = transform_compose(&turn, &place);
+// A box around the z axis, set up at `origin` along `axis`, then moved with the object.
+static Box axial_box(const Object *object, Vec3 origin, Vec3 axis, double radius, double low,
+                     double high) {
+    Transform place = transform_translate(origin), t = axis_rotation(axis);
+    t = transform_compose(&t, &place);
+    if (object->has_transform)
+        t = transform_compose(&t, &object->transform);
     return transformed_box((Box){vec3(-radius, -radius, low), vec3(radius, radius, high)}, &t);
 }
 
-static Box cone_box(const ConeShape *cone) {
-    Vec3 axis = vec_sub(cone->apex, cone->base);
+// POV-Ray's axis ends where the radius is larger, at the base when the radii are equal; the four
+// corners around it turn with its direction.
+static Box cone_box(const Object *object) {
+    const ConeShape *cone = &object->shape.cone;
+    bool to_apex = fabs(cone->apex_radius) > fabs(cone->base_radius);
+    Vec3 start = to_apex ? cone->base : cone->apex, end = to_apex ? cone->apex : cone->base;
+    Vec3 axis = vec_sub(end, start);
     double length = vec_length(axis);
     double radius = fmax(fabs(cone->base_radius), fabs(cone->apex_radius));
-    return axial_box(cone->base, vec_scale(axis, 1.0 / length), radius, 0, length);
+    return axial_box(object, start, vec_scale(axis, 1.0 / length), radius, 0, length);
+}
+
+static Box points_box(const Vec3 *points, int count) {
+    Box box = box_empty();
+    for (int i = 0; i < count; i++)
+        box = box_extend(box, points[i]);
+    return box;
+}
+
+// Without the object's transform, for the types that have one only now and then.
+static Box local_box(const Object *object) {
+    if (object->type == OBJECT_SPHERE) {
+        const SphereShape *s = &object->shape.sphere;
+        Vec3 r = vec3(s->radius, s->radius, s->radius);
+        return (Box){vec_sub(s->center, r), vec_add(s->center, r)};
+    }
+    if (object->type == OBJECT_TORUS) {
+        const TorusShape *t = &object->shape.torus;
+        double r = t->major + t->minor;
+        return (Box){vec3(-r, -t->minor, -r), vec3(r, t->minor, r)};
+    }
+    return (Box){object->shape.box.low, object->shape.box.high};
+}
+
+static Box infinite_box(void) {
+    return (Box){vec3(-HUGE_EXTENT, -HUGE_EXTENT, -HUGE_EXTENT),
+                 vec3(HUGE_EXTENT, HUGE_EXTENT, HUGE_EXTENT)};
 }
 
 // POV-Ray gives a disc a thickness.
@@ -69,41 +105,29 @@ static const double DISC_HALF = 1e-3;
 
 static Box leaf_box(const Object *object) {
     switch (object->type) {
-    case OBJECT_SPHERE: {
-        const SphereShape *s = &object->shape.sphere;
-        Vec3 r = vec3(s->radius, s->radius, s->radius);
-        return (Box){vec_sub(s->center, r), vec_add(s->center, r)};
-    }
+    case OBJECT_SPHERE:
     case OBJECT_BOX:
-        return (Box){object->shape.box.low, object->shape.box.high};
+    case OBJECT_TORUS: {
+        Box box = local_box(object);
+        return object->has_transform ? transformed_box(box, &object->transform) : box;
+    }
     case OBJECT_CYLINDER:
     case OBJECT_CONE:
-        return cone_box(&object->shape.cone);
-    case OBJECT_TORUS: {
-        const TorusShape *t = &object->shape.torus;
-        double r = t->major + t->minor;
-        return (Box){vec3(-r, -t->minor, -r), vec3(r, t->minor, r)};
-    }
+        return cone_box(object);
     case OBJECT_DISC: {
         const DiscShape *d = &object->shape.disc;
-        return axial_box(d->center, d->normal, d->radius, -DISC_HALF, DISC_HALF);
+        return axial_box(object, d->center, d->normal, d->radius, -DISC_HALF, DISC_HALF);
     }
     case OBJECT_PATCH:
-    case OBJECT_TRIANGLE: {
-        bool patch = object->type == OBJECT_PATCH;
-        const Vec3 *p = patch ? object->shape.patch.points : object->shape.triangle.p;
-        Box box = box_empty();
-        for (int i = 0; i < (patch ? 16 : 3); i++)
-            box = box_extend(box, p[i]);
-        return box;
-    }
+        return points_box(object->shape.patch.points, 16);
+    case OBJECT_TRIANGLE:
+        return points_box(object->shape.triangle.p, 3);
     case OBJECT_PLANE:
     case OBJECT_UNION:
     case OBJECT_MERGE:
         break;
     }
-    return (Box){vec3(-HUGE_EXTENT, -HUGE_EXTENT, -HUGE_EXTENT),
-                 vec3(HUGE_EXTENT, HUGE_EXTENT, HUGE_EXTENT)};
+    return infinite_box();
 }
 
 static Box box_intersect(Box a, Box b) {
@@ -116,9 +140,7 @@ static double box_volume(Box b) {
 }
 
 static bool list_box(const ObjectNode *list, bool together, Box *out) {
-    Box all = together ? box_empty()
-                       : (Box){vec3(-HUGE_EXTENT, -HUGE_EXTENT, -HUGE_EXTENT),
-                               vec3(HUGE_EXTENT, HUGE_EXTENT, HUGE_EXTENT)};
+    Box all = together ? box_empty() : infinite_box();
     bool any = false;
     for (; list; list = list->next) {
         Box box;
@@ -129,27 +151,7 @@ static bool list_box(const ObjectNode *list, bool together, Box *out) {
         all = together ? box_union(all, box) : box_intersect(all, box);
         any = true;
     }
-    *out = any ? all : leaf_box(&(Object){.type = OBJECT_UNION});
-    return true;
-}
-
-static bool whole_box(const ObjectNode *node, Box *out) {
-    int keyword = node->keyword;
-    if (keyword == KW_intersection)
-        return list_box(node->first, false, out);
-    if (keyword == KW_difference && node->first)
-        return node_extent(node->first, out);
-    if (!node->modelled)
-        return false;
-    if (node->light) {
-        *out = leaf_box(&(Object){.type = OBJECT_UNION});
-        return true;
-    }
-    if (node->object.type == OBJECT_UNION || node->object.type == OBJECT_MERGE)
-        return list_box(node->first, true, out);
-    *out = leaf_box(&node->object);
-    if (node->object.has_transform)
-        *out = transformed_box(*out, &node->object.transform);
+    *out = any ? all : infinite_box();
     return true;
 }
 
@@ -165,9 +167,35 @@ static bool shrink(const ObjectNode *bodies, Box *box) {
     return true;
 }
 
-bool node_extent(const ObjectNode *node, Box *out) {
+void csg_box_begin(ObjectNode *node) {
     Box box;
-    if (!whole_box(node, &box) || !shrink(node->bounds, &box) || !shrink(node->clips, &box))
+    if (node->keyword == KW_difference && node->first)
+        node->has_box = node_extent(node->first, &box);
+    else
+        node->has_box = list_box(node->first, node->keyword != KW_intersection, &box);
+    if (node->has_box)
+        node->box = round_box(box);
+}
+
+void csg_box_move(ObjectNode *node, const Move *move) {
+    if (node->has_box)
+        node->box = round_box(transformed_box(node->box, &move->t));
+}
+
+void csg_box_bound(ObjectNode *node) {
+    if (node->has_box)
+        node->has_box = shrink(node->bounds, &node->box) && shrink(node->clips, &node->box);
+}
+
+bool node_extent(const ObjectNode *node, Box *out) {
+    *out = node->box;
+    if (node->has_box)
+        return true;
+    bool is_union = node->object.type == OBJECT_UNION || node->object.type == OBJECT_MERGE;
+    if (!node->modelled || (is_union && !node->light))
+        return false;
+    Box box = node->light ? infinite_box() : leaf_box(&node->object);
+    if (!shrink(node->bounds, &box) || !shrink(node->clips, &box))
         return false;
     *out = round_box(box);
     return true;

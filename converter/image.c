@@ -54,6 +54,7 @@ void parse_image_options(Converter *cv) {
             break;
         case KW_map_type:
         case KW_interpolate:
+        case KW_bump_size:
             next_token(cv);
             parse_float(cv);
             break;

@@ -242,6 +242,7 @@ bool parse_object_modifier(Converter *cv, ObjectNode *node) {
 void parse_object_modifiers(Converter *cv, ObjectNode *node) {
     while (parse_object_modifier(cv, node)) {
     }
+    csg_box_bound(node);
     if (node->interior_texture && !node->texture) {
         Loc loc = here(cv);
         die_at(&loc, "interior_texture needs a texture as well");

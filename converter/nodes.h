@@ -239,6 +239,8 @@ struct ObjectNode {
     ObjectNode *first, *last; // children
     ObjectNode *bounds, *clips;
     const Loc *bound_loc, *clip_loc;
+    Box box; // of a CSG, as extent.c keeps it
+    bool has_box;
     LightNode *light;
     const Loc *loc; // of the statement, if it is not modelled
     const Gap *gaps;
@@ -269,6 +271,10 @@ void parse_csg_data(Converter *cv, ObjectNode *object);
 
 // The axis-aligned box as POV-Ray keeps it, in single precision; false: the object is not modelled.
 bool node_extent(const ObjectNode *object, Box *out);
+// The kept box of a CSG: from its children, after a transform, at the end of its modifiers.
+void csg_box_begin(ObjectNode *object);
+void csg_box_move(ObjectNode *object, const Move *move);
+void csg_box_bound(ObjectNode *object);
 
 // ---- the whole: statement.c, emit.c
 // --------------------------------------------------------------

@@ -7,8 +7,8 @@
 #include "converter/nodes.h"
 
 // Deeper trees than this come from runaway loops, and would overflow the stack of whoever walks
-// them.
-enum { DEPTH_LIMIT = 2000 };
+// them. A scene file holds no deeper ones either.
+enum { DEPTH_LIMIT = 1000 };
 
 static bool object_type(int keyword, ObjectType *type) {
     switch (keyword) {
@@ -76,8 +76,8 @@ ObjectNode *object_copy(Converter *cv, const ObjectNode *object) {
 }
 
 void object_add_child(Converter *cv, ObjectNode *parent, ObjectNode *child) {
-    if (child->depth >= DEPTH_LIMIT)
-        die_expected(cv, "less than 2000 unions inside one another");
+    if (child->depth + 1 >= DEPTH_LIMIT)
+        die_expected(cv, "less than 1000 unions inside one another");
     if (parent->depth <= child->depth)
         parent->depth = child->depth + 1;
     child->next = NULL;
@@ -141,6 +141,7 @@ void object_move(Converter *cv, ObjectNode *object, Move *move) {
             object_move(cv, object->light->looks_like, move);
     }
     shape_move(object, move);
+    csg_box_move(object, move);
 }
 
 // The inverse of a union is the intersection of the inverses, and the other way round.
@@ -197,6 +198,9 @@ static ObjectNode *parse_data(Converter *cv, const Token *token) {
     ObjectNode *object = object_create(cv, code);
     if (!object->modelled)
         object->loc = keep_place(cv, token);
+    if (code == KW_light_group)
+        note_gap(cv, &object->gaps, token,
+                 "light_group is not modelled: its lights shine on everything");
     if (code == KW_light_source)
         parse_light_data(cv, object);
     else if (keyword_is_csg(code) || code == KW_light_group)

@@ -349,7 +349,8 @@ void parse_pattern(Converter *cv, PatternUse use, PatternNode *pattern) {
     } else if (info && pattern_fits(use, token->code)) {
         next_token(cv);
         pattern->info = info;
-        pattern->loc = info->type == PATTERN_MODELLED ? keep_place(cv, token) : NULL;
+        bool modelled = info->type != PATTERN_MODELLED && use != USE_TEXTURE;
+        pattern->loc = modelled ? NULL : keep_place(cv, token);
         if (info->triangle)
             pattern->wave = WAVE_TRIANGLE;
         if (info->still)

@@ -195,11 +195,14 @@ static void try_prims(RayQuery *query) {
         bvh_walk(&world->tree, query->ray, fmax(query->t_min, 0.0), query->t, try_leaf, query);
 }
 
-// The same ray with a unit direction; the old one's length. A direction that camera and shading
+// The same ray with a unit direction; the old one's length, 0 if nothing can be asked of it (no
+// direction, numbers that are not finite). A direction that camera and shading
 // have made unit is left alone, bit for bit: its square is within rounding of 1.
 static double unit_ray(const Ray *ray, Ray *unit) {
     *unit = *ray;
     double square = vec_dot(ray->dir, ray->dir);
+    if (!vec_is_finite(ray->org))
+        return 0.0;
     if (fabs(square - 1.0) <= 0x1p-48)
         return 1.0;
     double length = sqrt(square);

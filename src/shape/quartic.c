@@ -55,9 +55,10 @@ static int roots_between(const Polynomial *f, const double *cuts, int cut_count,
     double unused, before = value_at(f, cuts[0], &unused);
     for (int i = 1; i < cut_count; i++) {
         double after = value_at(f, cuts[i], &unused);
-        // Zero counts as negative on both sides, so that no root is seen twice or not at all.
-        if ((before > 0.0) != (after > 0.0))
-            roots[count++] = bracketed_root(f, cuts[i - 1], cuts[i], after > 0.0);
+        // Zero counts as positive on both sides, so that no root is seen twice; what only touches
+        // zero from above is none.
+        if ((before < 0.0) != (after < 0.0))
+            roots[count++] = bracketed_root(f, cuts[i - 1], cuts[i], before < 0.0);
         before = after;
     }
     return count;

@@ -161,7 +161,7 @@ static Scene *small_scene(Arena *arena, uint32_t patches) {
         scene->objects[i].texture = 0;
         scene->objects[i].shape.patch.points = &points[(size_t)i * 16];
         for (int j = 0; j < 16; j++)
-            points[i * 16 + (uint32_t)j] = vec3(j / 4, j % 4 + 0.25, i);
+            points[i * 16 + (uint32_t)j] = vec3((double)(j >> 2), j % 4 + 0.25, i);
     }
     scene_collect_requires(scene, arena);
     return scene;

@@ -102,7 +102,7 @@ static int identifier(Converter *cv, double e[5], int want) {
     const Place *place = ahead_place(cv);
     ValueType type = place ? place->value->type : VALUE_NONE;
     int width = value_width(type);
-    if (!width && type != VALUE_FUNCTION && type != VALUE_SPLINE)
+    if (!place || (!width && type != VALUE_FUNCTION && type != VALUE_SPLINE))
         die_expected(cv, "numeric expression");
     const Value *value = place->value;
     void *node = value->node;

@@ -46,12 +46,10 @@ static bool parse_interior_item(Converter *cv, InteriorNode *node) {
                      "dispersion is not modelled: refracted light keeps its colour together");
         return true;
     }
-    const Value *value;
-    if (accept(cv, KW_media)) {
+    if (accept(cv, KW_media))
         parse_media_block(cv);
-    } else if (!(value = accept_value(cv, VALUE_MEDIA))) {
+    else if (!accept_value(cv, VALUE_MEDIA))
         return false;
-    }
     note_gap(cv, &node->gaps, token, "media is not modelled: the inside is clear");
     return true;
 }

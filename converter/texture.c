@@ -93,8 +93,8 @@ static const PatternNode *unfiltered_pigment(Converter *cv, const PatternNode *p
 
 const TextureNode *texture_layer(Converter *cv, const TextureNode *top, const TextureNode *below,
                                  const Token *token) {
-    if (!below)
-        return top;
+    if (!below || !top)
+        return below ? below : top;
     if (!texture_is_plain(top) || !texture_is_plain(below)) {
         Loc loc = token ? token_loc(cv, token) : here(cv);
         die_at(&loc, "a patterned texture cannot be a layer over or under another texture");

@@ -121,8 +121,7 @@ static Transform random_transform(Rng *rng) {
     X(float, metallic)                                                                             \
     X(float, reflection_falloff)                                                                   \
     X(float, reflection_exponent)                                                                  \
-    X(float, reflection_metallic) X(float, irid) X(float, irid_thickness)                          \
-        X(float, irid_turbulence)
+    X(float, reflection_metallic) X(float, irid) X(float, irid_thickness) X(float, irid_turbulence)
 #define FINISH_MEMBERS(X)                                                                          \
     FINISH_FLOATS(X)                                                                               \
     X(Rgb, ambient)                                                                                \

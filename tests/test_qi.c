@@ -121,9 +121,9 @@ static void random_patches_agree_with_the_judge(void **state) {
 static void every_degree_agrees_with_the_judge(void **state) {
     (void)state;
     for (int d = 1; d <= BEZIER_MAX_DEGREE; d++) {
-        compare_with_judge((uint64_t)(1000 + d), d, d, 0.1, 1);
-        compare_with_judge((uint64_t)(2000 + d), d, 1 + (d * 5) % 16, 0.1, 1);
-        compare_with_judge((uint64_t)(3000 + d), 1 + (d * 11) % 4, d, 0.4, 1);
+        compare_with_judge(1000 + (uint64_t)d, d, d, 0.1, 1);
+        compare_with_judge(2000 + (uint64_t)d, d, 1 + (d * 5) % 16, 0.1, 1);
+        compare_with_judge(3000 + (uint64_t)d, 1 + (d * 11) % 4, d, 0.4, 1);
     }
 }
 

@@ -15,7 +15,7 @@ static const double SHARE = 0.03;
 enum {
     MAX_DEPTH = 20,         // halvings, u and v together
     PIECES_A_PATCH = 4096,  // more are not worth their memory
-    PIECES_IN_ALL = 1 << 20  // about 250 MB; many patches are cut more coarsely
+    PIECES_IN_ALL = 1 << 20 // about 250 MB; many patches are cut more coarsely
 };
 
 typedef struct {

@@ -15,7 +15,7 @@ static const double SHARE = 0.03;
 enum {
     MAX_DEPTH = 20,         // halvings, u and v together
     PIECES_A_PATCH = 4096,  // more are not worth their memory
-    PIECES_IN_ALL = 1 << 20  // about 250 MB; many patches are cut more coarsely
+    PIECES_IN_ALL = 1 << 20 // about 250 MB; many patches are cut more coarsely
 };
 
 typedef struct {
@@ -162,9 +162,11 @@ static void measure(const Cutter *k, const Bezier *s, const Bezier *net, Cut *ou
                        vec_add(quasi_deviation_axes(s), slack));
 }
 
-// Upwards, with room for the rounding of differences of points that are off by `error`.
+// Upwards, with room for the rounding of differences of points that are off by `error`, and for
+// PIECE_MARGIN = m: outside of [0,1] by m the Bernstein weights' absolute values sum up to
+// (1 + 2 m)^n, for 16 twice that is below 1 + 2^-13.
 static float bound_up(double bound, double error) {
-    double up = (bound + error) * (1.0 + 0x1p-20) + DBL_MIN;
+    double up = (bound + error) * (1.0 + 0x1p-12) + DBL_MIN;
     return up < (double)FLT_MAX ? (float)up : INFINITY;
 }
 

@@ -30,6 +30,9 @@ typedef struct {
     double tolerance;    // scene units
 } AccelPatch;
 
+// How far outside its rectangle, in shares of its size, a piece's bounds still hold.
+#define PIECE_MARGIN 0x1p-20
+
 typedef struct {
     BezierRect rect;
     float muu, muv, mvv; // bounds of the lengths of the second derivatives, patch's parameters

@@ -10,9 +10,12 @@ enum { LINE = BEZIER_MAX_DEGREE + 1 };
 
 // One level of de Casteljau on n + 1 values at any spacing of t; see the header for the form.
 static inline void lerp_level(double *c, int n, double t) {
-    if (t <= 0.5) {
+    if (t < 0.5) {
         for (int i = 0; i < n; i++)
             c[i] = c[i] + t * (c[i + 1] - c[i]);
+    } else if (t == 0.5) {
+        for (int i = 0; i < n; i++)
+            c[i] = 0.5 * c[i] + 0.5 * c[i + 1];
     } else {
         double rest = 1.0 - t;
         for (int i = 0; i < n; i++)
@@ -21,9 +24,12 @@ static inline void lerp_level(double *c, int n, double t) {
 }
 
 static inline void lerp_level3(Vec3 *c, int n, double t) {
-    if (t <= 0.5) {
+    if (t < 0.5) {
         for (int i = 0; i < n; i++)
             c[i] = vec_madd(c[i], t, vec_sub(c[i + 1], c[i]));
+    } else if (t == 0.5) {
+        for (int i = 0; i < n; i++)
+            c[i] = vec_add(vec_scale(c[i], 0.5), vec_scale(c[i + 1], 0.5));
     } else {
         double rest = 1.0 - t;
         for (int i = 0; i < n; i++)
@@ -195,7 +201,8 @@ double bezier_diameter(const Bezier *s) {
 static double largest_coordinate(const Bezier *s) {
     double most = 0.0;
     for (int k = 0; k < bezier_count(s); k++)
-        most = fmax(most, fmax(fabs(s->p[k].x), fmax(fabs(s->p[k].y), fabs(s->p[k].z))));
+        for (int axis = 0; axis < 3; axis++)
+            most = fabs(vec_get(s->p[k], axis)) > most ? fabs(vec_get(s->p[k], axis)) : most;
     return most;
 }
 

@@ -85,7 +85,7 @@ static void build_piece(Search *q, BezierRect rect, Piece *p) {
     p->rect = rect;
     bezier_restrict(&q->patch, rect, &p->net);
     p->eps = quasi_deviation(&p->net);
-    p->disc = p->eps + sqrt(2.0) * q->frame.slack;
+    p->disc = p->eps + q->frame.slack_x + q->frame.slack_y;
     measure(&p->net, &p->size_u, &p->size_v);
     quasi_net(&p->net, &p->net);
 }
@@ -398,7 +398,7 @@ static int intersect(const Bezier *patch, const QiQuery *query, QiMode mode, QiS
     Bezier raised;
     bezier_copy(&raised, patch);
     raise_linear(&raised);
-    if (!qi_frame_init(&q.frame, &raised, query, &q.patch))
+    if (!qi_frame_init(&q.frame, FRAME_ACROSS, &raised, query, &q.patch))
         return 0;
     q.list = (QiList){mode, query->t_min, query->t_max, 0, mode == QI_ALL ? QI_MAX_HITS : 1, found};
     q.steps = 0;

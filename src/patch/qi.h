@@ -9,18 +9,18 @@
 //
 // What is promised, for finite input (anything else, or a zero direction, gives no hit):
 //   - t_min <= t < t_max, (u,v) inside the rectangle asked for, |org + t dir - S(u,v)| <= bound,
-//     and bound <= tolerance + 4 R, where R = qi_rounding() is what rounding alone can do. The
-//     bound counts all rounding; the control points and the ray count as exact.
+//     and bound <= tolerance + R, where R = qi_rounding() is what rounding alone can do. The bound
+//     counts all rounding; the control points and the ray count as exact.
 //   - No crossing inside the rectangle, its sides included, is missed. A ray that passes within
 //     the tolerance of the surface without crossing it may or may not be reported.
 //   - One crossing is one hit, also where search pieces meet, at collapsed edges and at corners.
-//     Two crossings nearer to each other than the tolerance can tell (the two sides of a fold that
-//     the ray leaves by less than the tolerance) may be reported as one.
-//   - Where the ray lies in the surface the answers are infinitely many. Then some are reported,
-//     the nearest (within the tolerance) among them; never none.
-//   - Work is bounded: at most qi_work_limit() nets before only one child of a net is followed. The
-//     limit is far beyond what separate crossings need.
-//   - No heap, about 100 KB of stack, no state: any number of threads.
+//     Two crossings that the tolerance cannot tell apart (the two sides of a fold that the ray
+//     leaves by less than the tolerance) may be reported as one.
+//   - Where the ray lies in the surface the answers are infinitely many: some are reported, never
+//     none. With qi_reduce the one with the smallest t, within the tolerance, is among them.
+//   - Work is bounded: after qi_work_limit() nets only one child of each net is followed. Separate
+//     crossings stay far below the limit; rays in the surface may reach it.
+//   - No heap, less than 200 KB of stack, no state: any number of threads.
 #ifndef PATCH_QI_H
 #define PATCH_QI_H
 

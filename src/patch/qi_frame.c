@@ -8,7 +8,8 @@
 
 static const double HALF_ULP = 0.5 * DBL_EPSILON;
 
-static double largest(Vec3 a) { return fmax(fabs(a.x), fmax(fabs(a.y), fabs(a.z))); }
+static inline double larger(double a, double b) { return a > b ? a : b; }
+static inline double largest(Vec3 a) { return larger(fabs(a.x), larger(fabs(a.y), fabs(a.z))); }
 
 // Times 2^exponent, in two factors: one alone could leave the range.
 static Vec3 shifted(Vec3 a, int exponent) {
@@ -16,16 +17,16 @@ static Vec3 shifted(Vec3 a, int exponent) {
     return vec_scale(vec_scale(a, half), rest);
 }
 
-// Rounding of frame coordinates, for coordinates up to `side` when the point is `reach` away.
+// Rounding of one frame coordinate that is at most `side`, made from terms that add up to `terms`.
 //
-// Getting into the frame: P - org errs by 1/2 ulp of each coordinate, a dot product of three terms
-// by 3 more halves of |e||q|, the axes themselves by 4 (cross product and normalisation) to each
-// side: 12 half ulps of `reach`, all told.
+// Getting into the frame: P - org errs by 1/2 ulp of each coordinate, a sum of up to three products
+// by 3 more halves of its terms, the factors by 4 (cross product and normalisation of the axes
+// across; the skew frame's quotients have 1) to each side: 12 half ulps of the terms, all told.
 // Within it: a value of S, a restricted point or a net point is a convex mean in at most 4 (or 3,
 // by bezier.h) operations a level and direction; parameters rounded by an ulp move it by at most
 // 2 (du + dv) half ulps more; 40 covers averages of the net, linear maps and distances.
-static double slack_of(int du, int dv, double reach, double side) {
-    return HALF_ULP * (12.0 * reach + (8.0 * (du + dv) + 40.0) * side);
+static double slack_of(int du, int dv, double terms, double side) {
+    return HALF_ULP * (12.0 * terms + (8.0 * (du + dv) + 40.0) * side);
 }
 
 // What the stop rules need: a second difference errs by 4 slacks, times Z. Twice that, and some
@@ -40,7 +41,9 @@ double qi_rounding(const Bezier *patch, Vec3 org) {
         reach = fmax(reach, largest(vec_sub(patch->p[k], org)));
     reach *= sqrt(3.0);
     int du = patch->du < 2 ? 2 : patch->du, dv = patch->dv < 2 ? 2 : patch->dv;
-    double rounding = (1.0 + sqrt(2.0)) * slack_of(du, dv, reach, reach);
+    // Terms and sides of x and y are at most twice the farthest coordinate in the skew frame, and z
+    // counts sqrt(3) times at most: 2 sqrt(2) + sqrt(3), less than 3 sqrt(3).
+    double rounding = 3.0 * sqrt(3.0) * slack_of(du, dv, reach, reach);
     return rounding + floor_of(du, dv, rounding);
 }
 
@@ -63,12 +66,85 @@ static double depth_of(const QiFrame *f, double t, double ulps) {
     return isfinite(z) ? z + ulps * HALF_ULP * fabs(z) : z;
 }
 
-bool qi_frame_init(QiFrame *f, const Bezier *patch, const QiQuery *query, Bezier *out) {
+// The frame's axes, as rows.
+typedef struct {
+    Vec3 x, y, z;
+} Axes;
+
+static Axes axes_across(Vec3 dir, double *length) {
+    *length = vec_length(dir);
+    Vec3 w = vec_scale(dir, 1.0 / *length);
+    double x = fabs(w.x), y = fabs(w.y), z = fabs(w.z);
+    Vec3 far = x <= y && x <= z ? vec3(1.0, 0.0, 0.0)
+               : y <= z         ? vec3(0.0, 1.0, 0.0)
+                                : vec3(0.0, 0.0, 1.0);
+    Vec3 e = vec_normalize(vec_cross(w, far));
+    return (Axes){e, vec_cross(w, e), w};
+}
+
+// Is |dir_a| / far_a larger than |dir_b| / far_b?
+static bool steeper(Vec3 dir, Vec3 far, int a, int b) {
+    return fabs(vec_get(dir, a)) * vec_get(far, b) > fabs(vec_get(dir, b)) * vec_get(far, a);
+}
+
+// far: largest coordinates of the patch, seen from the origin.
+static Axes axes_skew(Vec3 dir, Vec3 far, double *length) {
+    // A component below any rounding of the others cannot carry z.
+    const double least = 0x1p-900;
+    int k = -1;
+    for (int axis = 0; axis < 3; axis++)
+        if (fabs(vec_get(dir, axis)) > least && (k < 0 || steeper(dir, far, axis, k)))
+            k = axis;
+    double along = vec_get(dir, k), sign = copysign(1.0, along);
+    *length = fabs(along);
+    double x = -dir.x / along, y = -dir.y / along, z = -dir.z / along;
+    if (k == 0)
+        return (Axes){{y, 1.0, 0.0}, {z, 0.0, 1.0}, {sign, 0.0, 0.0}};
+    if (k == 1)
+        return (Axes){{1.0, x, 0.0}, {0.0, z, 1.0}, {0.0, sign, 0.0}};
+    return (Axes){{1.0, 0.0, x}, {0.0, 1.0, y}, {0.0, 0.0, sign}};
+}
+
+static double terms(Vec3 a, Vec3 b) { return fabs(a.x * b.x) + fabs(a.y * b.y) + fabs(a.z * b.z); }
+
+// Scales the patch by 2^exponent and moves the origin to org. Returns the largest coordinates.
+static Vec3 move_points(int exponent, const Bezier *patch, Vec3 org, Bezier *out) {
+    double half = ldexp(1.0, exponent / 2), rest = ldexp(1.0, exponent - exponent / 2);
+    Vec3 far = vec3(0.0, 0.0, 0.0);
+    org = vec_scale(vec_scale(org, half), rest);
+    out->du = patch->du;
+    out->dv = patch->dv;
+    for (int k = 0; k < bezier_count(patch); k++) {
+        Vec3 q = vec_sub(vec_scale(vec_scale(patch->p[k], half), rest), org);
+        far = vec_max(far, vec3(fabs(q.x), fabs(q.y), fabs(q.z)));
+        out->p[k] = q;
+    }
+    return far;
+}
+
+static void turn_points(QiFrame *f, const Axes *axes, Bezier *s) {
+    Vec3 side = vec3(0.0, 0.0, 0.0), sums = side;
+    for (int k = 0; k < bezier_count(s); k++) {
+        Vec3 q = s->p[k];
+        Vec3 p = vec3(vec_dot(axes->x, q), vec_dot(axes->y, q), vec_dot(axes->z, q));
+        side = vec_max(side, vec3(fabs(p.x), fabs(p.y), fabs(p.z)));
+        sums = vec_max(sums, vec3(terms(axes->x, q), terms(axes->y, q), terms(axes->z, q)));
+        s->p[k] = p;
+    }
+    f->side_x = side.x;
+    f->side_y = side.y;
+    f->slack_x = slack_of(s->du, s->dv, sums.x, side.x);
+    f->slack_y = slack_of(s->du, s->dv, sums.y, side.y);
+    f->slack_z = slack_of(s->du, s->dv, sums.z, side.z);
+}
+
+bool qi_frame_init(QiFrame *f, QiFrameKind kind, const Bezier *patch, const QiQuery *query,
+                   Bezier *out) {
     if (!query_is_sound(query))
         return false;
     double most = largest(query->ray.org);
     for (int k = 0; k < bezier_count(patch); k++)
-        most = fmax(most, largest(patch->p[k]));
+        most = larger(most, largest(patch->p[k]));
     if (!isfinite(most))
         return false;
     int exponent, dir_exponent;
@@ -77,38 +153,18 @@ bool qi_frame_init(QiFrame *f, const Bezier *patch, const QiQuery *query, Bezier
     f->exponent = -exponent;
     f->t_exponent = exponent - dir_exponent;
 
-    // Axes: w along the ray, e1 and e2 across, from the coordinate axis farthest from w.
     Vec3 dir = shifted(query->ray.dir, -dir_exponent);
-    f->length = vec_length(dir);
-    f->w = vec_scale(dir, 1.0 / f->length);
-    double x = fabs(f->w.x), y = fabs(f->w.y), z = fabs(f->w.z);
-    Vec3 far = x <= y && x <= z ? vec3(1.0, 0.0, 0.0)
-               : y <= z         ? vec3(0.0, 1.0, 0.0)
-                                : vec3(0.0, 0.0, 1.0);
-    f->e1 = vec_normalize(vec_cross(f->w, far));
-    f->e2 = vec_cross(f->w, f->e1);
-    f->org = shifted(query->ray.org, f->exponent);
-
-    out->du = patch->du;
-    out->dv = patch->dv;
-    double reach = 0.0, side = 0.0;
-    for (int k = 0; k < bezier_count(patch); k++) {
-        Vec3 q = vec_sub(shifted(patch->p[k], f->exponent), f->org);
-        Vec3 p = vec3(vec_dot(f->e1, q), vec_dot(f->e2, q), vec_dot(f->w, q));
-        reach = fmax(reach, vec_length(q));
-        side = fmax(side, fmax(fabs(p.x), fabs(p.y)));
-        out->p[k] = p;
-    }
-    f->reach = reach;
-    f->slack = slack_of(out->du, out->dv, reach, side);
-    f->slack_z = slack_of(out->du, out->dv, reach, reach);
-    f->rounding = sqrt(2.0) * f->slack + f->slack_z;
+    Vec3 far = move_points(f->exponent, patch, query->ray.org, out);
+    Axes axes =
+        kind == FRAME_ACROSS ? axes_across(dir, &f->length) : axes_skew(dir, far, &f->length);
+    turn_points(f, &axes, out);
+    // An error of z moves the ray's point by |dir| / length as much.
+    f->rounding = sqrt(f->slack_x * f->slack_x + f->slack_y * f->slack_y) +
+                  vec_length(dir) / f->length * f->slack_z;
     double least = 0.5 * floor_of(out->du, out->dv, f->rounding);
-    f->tolerance = fmax(ldexp(query->tolerance, f->exponent), least);
-    f->z_low = depth_of(f, query->t_min, -8.0);
-    f->z_high = depth_of(f, query->t_max, 8.0);
-    f->z_low -= 8.0 * HALF_ULP * fabs(f->z_low) + f->slack_z;
-    f->z_high += f->slack_z;
+    f->tolerance = larger(ldexp(query->tolerance, f->exponent), least);
+    f->z_low = depth_of(f, query->t_min, -8.0) - f->slack_z;
+    f->z_high = depth_of(f, query->t_max, 8.0) + f->slack_z;
     return true;
 }
 
@@ -126,11 +182,14 @@ static bool one_crossing(const QiFound *a, const QiFound *b) {
 }
 
 // The better of the two stays, over both rectangles: a crossing proved (sign known) before a mere
-// approach, then the smaller bound.
+// approach, then the bound if it differs much, then the nearer.
 static void absorb(QiFound *into, const QiFound *from) {
     BezierRect a = into->rect, b = from->rect;
     int known_a = into->sign != 0, known_b = from->sign != 0;
-    bool better = known_b != known_a ? known_b > known_a : from->bound < into->bound;
+    bool better = known_b != known_a                ? known_b > known_a
+                  : from->bound < 0.5 * into->bound ? true
+                  : into->bound < 0.5 * from->bound ? false
+                                                    : from->t < into->t;
     if (better)
         *into = *from;
     into->rect =

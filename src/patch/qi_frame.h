@@ -1,30 +1,38 @@
 // SPDX-License-Identifier: MIT
 // What the two QI searches share: the ray's frame, and the list of hits found.
 //
-// In the ray's frame the ray is the z axis from the origin upwards: x and y of a point are its two
-// distances from the ray, z its depth. A patch in this frame meets the ray where x = y = 0. Frame
-// units are scene units times a power of two, chosen so that no coordinate exceeds 1 by much: no
-// square over- or underflows, and the change of units is exact.
+// In the ray's frame the ray is the z axis from the origin upwards, and a patch meets it where
+// x = y = 0. There are two such frames:
+//   FRAME_ACROSS  x and y in the plane orthogonal to the ray, z the depth: a rotation;
+//   FRAME_SKEW    x and y in the plane of two coordinate axes, projected along the ray, and z along
+//                 the third axis k, that of the largest |dir_k| / max |P_k - org_k|. (x, y) is then
+//                 the offset from the ray's point of the same z. No axis gets more from another
+//                 than it has itself, so a patch that is 1e10 times thinner in one axis, met by
+//                 rays of any direction, keeps its digits.
+// Frame units are scene units times a power of two, chosen so that no coordinate exceeds 1 by much:
+// no square over- or underflows, and the change of units is exact.
 #ifndef PATCH_QI_FRAME_H
 #define PATCH_QI_FRAME_H
 
 #include "patch/qi.h"
 
+typedef enum { FRAME_ACROSS, FRAME_SKEW } QiFrameKind;
+
 typedef struct {
-    Vec3 org, e1, e2, w;   // scaled origin; unit axes, w along the ray
-    int exponent;          // frame units = scene units * 2^exponent
-    int t_exponent;        // t = z / length * 2^t_exponent
-    double length;         // of the ray's dir after scaling, in [0.5, 2)
-    double reach;          // largest distance of a control point from the origin
-    double slack, slack_z; // rounding of x or y, and of z, of any point or net point derived
-    double rounding;       // sqrt(2) slack + slack_z: of a distance in space
-    double tolerance;      // the query's, or what rounding allows
-    double z_low, z_high;  // depths that t_min and t_max allow, rounded outwards
+    int exponent;                     // frame units = scene units * 2^exponent
+    int t_exponent;                   // t = z / length * 2^t_exponent
+    double length;                    // of dir along z, scaled; > 0
+    double side_x, side_y;            // largest |x| and |y| of a control point
+    double slack_x, slack_y, slack_z; // rounding of any point or net point derived
+    double rounding;                  // of a distance in space, from all three
+    double tolerance;                 // the query's, or what rounding allows
+    double z_low, z_high;             // depths that t_min and t_max allow, rounded outwards
 } QiFrame;
 
 // Puts the patch into the ray's frame: out gets its points. False for a ray or query that can have
 // no hit (zero or infinite direction, empty ranges, NaN).
-bool qi_frame_init(QiFrame *frame, const Bezier *patch, const QiQuery *query, Bezier *out);
+bool qi_frame_init(QiFrame *frame, QiFrameKind kind, const Bezier *patch, const QiQuery *query,
+                   Bezier *out);
 double qi_frame_t(const QiFrame *frame, double z);
 double qi_frame_scene(const QiFrame *frame, double length); // frame units to scene units
 

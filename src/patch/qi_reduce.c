@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The QI bounds used to read the parameters off, instead of testing squares.
 //
-// In the ray's frame S(u,v) = (x, y, z) meets the ray where x = y = 0. A linear map of (x, y) makes
-// both close to a parameter of the piece: with J the piece's mean Jacobian and A its inverse,
+// In the ray's skew frame S(u,v) = (x, y, z) meets the ray where x = y = 0. A linear map of (x, y)
+// makes both close to a parameter of the piece: with J the piece's mean Jacobian and A its inverse,
 //     A (x, y) = (u + r(u,v), v + s(u,v)),
 // r and s small. Each remainder is a Bézier function, and lies within its QI net +- eps, so a root
 // has u in -[r], v in -[s]. The remainder shrinks with the square of the piece, so pieces shrink
@@ -14,14 +14,18 @@
 // Jacobian times J is at most 1/(1 - L), two Jacobians differ by 2 L at most, so a step multiplies
 // the error by 2 L / (1 - L) = 2/3 or less, and quadratically less as it goes on. It ends on the
 // root, or, when the piece has none, on a residual that rounding does not explain: a proved miss.
+// Between 1/4 and 1 Newton is tried as well: what it finds is the only root, if it fails nothing
+// is proved and the reduction goes on.
 //
 // Where J is singular (collapsed edges, silhouettes, rays in the surface) the map is a rotation to
 // the direction of the larger tangent and the one across; both coordinates are tested, and clip
 // what they can. What does not shrink is halved, across the direction that is longer as the ray
-// sees it. A piece wholly within the tolerance of the ray is one hit.
+// sees it. A piece wholly within the tolerance of the ray is one hit, and so is a curve of a piece
+// on which one coordinate vanishes while the other is nothing but rounding: a tangent ray, or one
+// that lies in the surface.
 #include "patch/qi.h"
 
-#include "patch/qi_frame.h"
+#include "patch/qi_root.h"
 #include "patch/quasi.h"
 
 #include <assert.h>
@@ -32,29 +36,17 @@ enum { LINE = BEZIER_MAX_DEGREE + 1, POINTS = BEZIER_MAX_POINTS };
 // Halving stops at parameter widths of 2^-49, where a piece spans less than 16 ulps.
 enum { HALVINGS = 49, STACK = 2 * HALVINGS + 2 };
 static const double LEAST_WIDTH = 0x1p-49;
-
-// A patch in the ray's frame, coordinate by coordinate; index i * (dv + 1) + j.
-typedef struct {
-    double x[POINTS], y[POINTS], z[POINTS];
-} Net;
+// L from which on Newton cannot fail, and from which on it is tried.
+static const double CERTAIN_SLOPE = 0.25, LIKELY_SLOPE = 0.75;
 
 typedef struct {
-    QiFrame frame;
-    QiList list;
-    int du, dv;
-    Net whole;
-    uint64_t steps, newton, work_limit;
+    QiTarget target;
+    uint64_t steps, work_limit;
 } Search;
 
 typedef struct {
     double low, high;
 } Span;
-
-// A linear function of the projected coordinates, bx x + by y = au u + av v + remainder over the
-// piece's own [0,1]^2.
-typedef struct {
-    double bx, by, au, av;
-} Form;
 
 // The remainder's QI bounds, and L of the intro.
 typedef struct {
@@ -107,7 +99,7 @@ static inline void restrict_axis(const double *p, const double *wu, const double
     }
 }
 
-static inline void restrict_net(const Net *whole, int du, int dv, BezierRect r, Net *out) {
+static inline void restrict_net(const QiNet *whole, int du, int dv, BezierRect r, QiNet *out) {
     double wu[LINE * LINE], wv[LINE * LINE];
     restriction(wu, du, r.u0, r.u1);
     restriction(wv, dv, r.v0, r.v1);
@@ -191,8 +183,8 @@ static inline void quasi(double *r, int du, int dv) {
     }
 }
 
-static inline Remainder bound_remainder(const Net *p, int du, int dv, Form f, double zu, double zv,
-                                        double slack) {
+static inline Remainder bound_remainder(const QiNet *p, int du, int dv, QiForm f, double zu,
+                                        double zv, const QiFrame *frame) {
     double r[POINTS], second[2], slope[2];
     for (int i = 0; i <= du; i++) {
         double base = f.au * ((double)i / du);
@@ -204,8 +196,8 @@ static inline Remainder bound_remainder(const Net *p, int du, int dv, Form f, do
     differences(r, du, dv, second, slope);
     quasi(r, du, dv);
     // Rounding: that of the coordinates, and of the parameters' share.
-    double eps = zu * second[0] + zv * second[1] + (fabs(f.bx) + fabs(f.by)) * slack +
-                 16.0 * DBL_EPSILON * (fabs(f.au) + fabs(f.av));
+    double eps = zu * second[0] + zv * second[1] + fabs(f.bx) * frame->slack_x +
+                 fabs(f.by) * frame->slack_y + 16.0 * DBL_EPSILON * (fabs(f.au) + fabs(f.av));
     Span s = span_of(r, (du + 1) * (dv + 1));
     return (Remainder){{s.low - eps, s.high + eps}, slope[0] + slope[1]};
 }
@@ -237,176 +229,6 @@ static void narrow(double *low, double *high, Span part) {
     *high = fmax(fmin(from + width * part.high + ulps, to), *low);
 }
 
-// ---- Points ----
-
-typedef struct {
-    double x, y, z, xu, yu, xv, yv;
-} Point;
-
-// Bernstein weights and their derivatives at t.
-static inline void weights(int d, double t, double *value, double *slope) {
-    double low[LINE] = {1.0};
-    for (int m = 1; m < d; m++) {
-        low[m] = 0.0;
-        for (int i = m; i > 0; i--)
-            low[i] = low[i] * (1.0 - t) + low[i - 1] * t;
-        low[0] *= 1.0 - t;
-    }
-    for (int i = 0; i <= d; i++) {
-        double here = i < d ? low[i] : 0.0, before = i > 0 ? low[i - 1] : 0.0;
-        value[i] = here * (1.0 - t) + before * t;
-        slope[i] = d * (before - here);
-    }
-}
-
-static inline Point eval_net(const Net *n, int du, int dv, double u, double v) {
-    double wu[LINE], su[LINE], wv[LINE], sv[LINE];
-    weights(du, u, wu, su);
-    weights(dv, v, wv, sv);
-    Point p = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
-    for (int i = 0; i <= du; i++) {
-        const double *x = n->x + i * (dv + 1), *y = n->y + i * (dv + 1), *z = n->z + i * (dv + 1);
-        double rx = 0.0, ry = 0.0, rz = 0.0, rxv = 0.0, ryv = 0.0;
-        for (int j = 0; j <= dv; j++) {
-            rx += x[j] * wv[j];
-            ry += y[j] * wv[j];
-            rz += z[j] * wv[j];
-            rxv += x[j] * sv[j];
-            ryv += y[j] * sv[j];
-        }
-        p.x += rx * wu[i];
-        p.y += ry * wu[i];
-        p.z += rz * wu[i];
-        p.xu += rx * su[i];
-        p.yu += ry * su[i];
-        p.xv += rxv * wu[i];
-        p.yv += ryv * wu[i];
-    }
-    return p;
-}
-
-static Point eval(const Search *q, double u, double v) {
-    if (q->du == 3 && q->dv == 3)
-        return eval_net(&q->whole, 3, 3, u, v);
-    return eval_net(&q->whole, q->du, q->dv, u, v);
-}
-
-static double clamp(double x, double low, double high) {
-    return x < low ? low : x > high ? high : x;
-}
-
-// ---- Hits ----
-
-static bool in_range(const Search *q, double z) {
-    double t = qi_frame_t(&q->frame, z);
-    return t >= q->list.t_min && t < q->list.t_max;
-}
-
-static void add_found(Search *q, Point p, double u, double v, BezierRect rect, int sign) {
-    QiFound found;
-    found.t = qi_frame_t(&q->frame, p.z);
-    found.z = p.z;
-    found.u = u;
-    found.v = v;
-    found.bound = sqrt(p.x * p.x + p.y * p.y) + q->frame.rounding;
-    found.rect = rect;
-    found.sign = sign;
-    qi_list_add(&q->list, found);
-}
-
-// The only root that the piece `rect` can have, if it has it. (u,v) is any point of it; widths of
-// the error, per unit of x and y error, are given by the forms that proved the root single.
-static void sharpen_single(Search *q, BezierRect rect, double u, double v, double gain_u,
-                           double gain_v) {
-    const double accept = 4.0 * q->frame.slack;
-    Point p = eval(q, u, v);
-    // 2/3 a step at first and quadratic from then on: 40 steps reach 2^-53 even at 2/3 throughout.
-    for (int n = 0; n < 96; n++) {
-        double det = p.xu * p.yv - p.xv * p.yu;
-        double nu = clamp(u - (p.yv * p.x - p.xv * p.y) / det, rect.u0, rect.u1);
-        double nv = clamp(v - (p.xu * p.y - p.yu * p.x) / det, rect.v0, rect.v1);
-        if (!(fabs(nu - u) + fabs(nv - v) > DBL_EPSILON)) // no step left, or no number
-            break;
-        Point next = eval(q, nu, nv);
-        q->newton++;
-        bool small = fabs(p.x) <= accept && fabs(p.y) <= accept;
-        if (small && fabs(next.x) + fabs(next.y) >= fabs(p.x) + fabs(p.y))
-            break; // as near as rounding lets it come
-        u = nu, v = nv, p = next;
-        if (fabs(p.x) + fabs(p.y) <= 0.0625 * q->frame.slack)
-            break;
-    }
-    if (!(fabs(p.x) <= accept && fabs(p.y) <= accept))
-        return;
-    double eu = 2.0 * gain_u * accept, ev = 2.0 * gain_v * accept;
-    double det = p.xu * p.yv - p.xv * p.yu;
-    add_found(q, p, u, v, (BezierRect){u - eu, u + eu, v - ev, v + ev}, det > 0.0 ? 1 : -1);
-}
-
-// A few damped least-squares steps towards the ray inside rect: they find a double or multiple root
-// too, or a point of a whole curve of them. Keeps what is nearer to the ray and in range.
-static Point sharpen_any(Search *q, BezierRect rect, Point p, double *u, double *v) {
-    for (int n = 0; n < 8; n++) {
-        double a = p.xu * p.xu + p.yu * p.yu, b = p.xu * p.xv + p.yu * p.yv,
-               c = p.xv * p.xv + p.yv * p.yv, damp = 1e-12 * (a + c);
-        double gu = p.xu * p.x + p.yu * p.y, gv = p.xv * p.x + p.yv * p.y;
-        double det = (a + damp) * (c + damp) - b * b;
-        double nu = clamp(*u - ((c + damp) * gu - b * gv) / det, rect.u0, rect.u1);
-        double nv = clamp(*v - ((a + damp) * gv - b * gu) / det, rect.v0, rect.v1);
-        if (!(fabs(nu - *u) + fabs(nv - *v) > DBL_EPSILON))
-            break;
-        Point next = eval(q, nu, nv);
-        q->newton++;
-        if (!(fabs(next.x) + fabs(next.y) < fabs(p.x) + fabs(p.y)) || !in_range(q, next.z))
-            break;
-        *u = nu, *v = nv, p = next;
-    }
-    return p;
-}
-
-// A piece whose every point is within the tolerance of the ray: one hit. It starts from the
-// nearest corner whose depth is in range; where the corners lie on both sides of t_min, from a
-// point between two of them that is. False: no such point, and the piece is long in depth.
-static bool settle(Search *q, BezierRect r) {
-    const double us[4] = {r.u0, r.u0, r.u1, r.u1}, vs[4] = {r.v0, r.v1, r.v0, r.v1};
-    Point corners[4];
-    int best = -1, before = -1, behind = -1;
-    for (int k = 0; k < 4; k++) {
-        corners[k] = eval(q, us[k], vs[k]);
-        double z = corners[k].z;
-        if (in_range(q, z))
-            best = best < 0 || z < corners[best].z ? k : best;
-        else if (qi_frame_t(&q->frame, z) < q->list.t_min)
-            before = k;
-        else
-            behind = k;
-    }
-    double u = 0.5 * (r.u0 + r.u1), v = 0.5 * (r.v0 + r.v1);
-    Point p = eval(q, u, v);
-    if (before >= 0 && (best >= 0 || behind >= 0)) {
-        // Bisect for the first depth in range between the two.
-        int far = best >= 0 ? best : behind;
-        double low = 0.0, high = 1.0;
-        for (int n = 0; n < 56; n++) {
-            double at = 0.5 * (low + high);
-            double nu = us[before] + at * (us[far] - us[before]);
-            double nv = vs[before] + at * (vs[far] - vs[before]);
-            Point next = eval(q, nu, nv);
-            bool early = qi_frame_t(&q->frame, next.z) < q->list.t_min;
-            if (!early)
-                u = nu, v = nv, p = next;
-            *(early ? &low : &high) = at;
-        }
-    } else if (best >= 0) {
-        u = us[best], v = vs[best], p = corners[best];
-    }
-    if (!in_range(q, p.z))
-        return false;
-    p = sharpen_any(q, r, p, &u, &v);
-    add_found(q, p, u, v, r, 0);
-    return true;
-}
-
 // ---- One step ----
 
 typedef enum { STEP_DONE, STEP_AGAIN, STEP_HALVE } Step;
@@ -417,14 +239,18 @@ typedef struct {
     bool along_u, low_first;
 } Rest;
 
-// The two forms of a piece: A (x, y) where the mean Jacobian allows it (true), else the rotation.
-static inline bool choose_forms(double xu, double yu, double xv, double yv, Form forms[2]) {
+// The two forms of a piece: A (x, y) where the mean Jacobian allows it (true), else the rotation,
+// both after x and y were brought to one size.
+static inline bool choose_forms(const Search *q, double xu, double yu, double xv, double yv,
+                                QiForm forms[2]) {
+    double wx = q->target.weight_x, wy = q->target.weight_y;
+    xu *= wx, xv *= wx, yu *= wy, yv *= wy;
     double det = xu * yv - xv * yu;
     double uu = xu * xu + yu * yu, vv = xv * xv + yv * yv;
     // Tangents at less than about 3 degrees to each other: A would stretch the remainder 20 times.
     if (det * det > 0.0025 * uu * vv && isfinite(1.0 / det)) {
-        forms[0] = (Form){yv / det, -xv / det, 1.0, 0.0};
-        forms[1] = (Form){-yu / det, xu / det, 0.0, 1.0};
+        forms[0] = (QiForm){yv / det * wx, -xv / det * wy, 1.0, 0.0};
+        forms[1] = (QiForm){-yu / det * wx, xu / det * wy, 0.0, 1.0};
         return true;
     }
     double gx = uu >= vv ? xu : xv, gy = uu >= vv ? yu : yv, length = sqrt(larger(uu, vv));
@@ -432,45 +258,63 @@ static inline bool choose_forms(double xu, double yu, double xv, double yv, Form
         gx = length = 1.0, gy = 0.0;
     gx /= length;
     gy /= length;
-    forms[0] = (Form){gx, gy, gx * xu + gy * yu, gx * xv + gy * yv};
-    forms[1] = (Form){-gy, gx, gx * yu - gy * xu, gx * yv - gy * xv};
+    forms[0] = (QiForm){gx * wx, gy * wy, gx * xu + gy * yu, gx * xv + gy * yv};
+    forms[1] = (QiForm){-gy * wx, gx * wy, gx * yu - gy * xu, gx * yv - gy * xv};
     return false;
 }
 
-static inline bool within(const Net *p, int count, double radius) {
+static inline bool within(const QiNet *p, int count, double radius) {
     for (int k = 0; k < count; k++)
         if (!(p->x[k] * p->x[k] + p->y[k] * p->y[k] <= radius * radius))
             return false;
     return true;
 }
 
-// Longest difference of neighbours, in the larger coordinate.
-static inline void lengths(const Net *p, int du, int dv, double *along_u, double *along_v) {
+// Is the form's value on the piece nothing but rounding?
+static inline bool weak_form(const QiNet *p, int count, QiForm f, const QiFrame *frame) {
+    double most = 16.0 * (fabs(f.bx) * frame->slack_x + fabs(f.by) * frame->slack_y);
+    for (int k = 0; k < count; k++)
+        if (!(fabs(f.bx * p->x[k] + f.by * p->y[k]) <= most))
+            return false;
+    return true;
+}
+
+// Longest difference of neighbours, in the larger coordinate by weight.
+static inline void lengths(const Search *q, const QiNet *p, int du, int dv, double *along_u,
+                           double *along_v) {
     double none[2], x[2], y[2];
     differences(p->x, du, dv, none, x);
     differences(p->y, du, dv, none, y);
-    *along_u = larger(x[0], y[0]);
-    *along_v = larger(x[1], y[1]);
+    *along_u = larger(x[0] * q->target.weight_x, y[0] * q->target.weight_y);
+    *along_v = larger(x[1] * q->target.weight_x, y[1] * q->target.weight_y);
+}
+
+// Which half is met first? Where J is singular the first form vanishes along a curve of the piece,
+// and depth counts along that curve: a ray in the surface must be followed from its near end.
+static inline bool nearer_low(bool along_u, bool regular, QiForm f, double zu, double zv) {
+    if (along_u)
+        return regular || f.av == 0.0 ? zu >= 0.0 : (zu * f.av - zv * f.au) * f.av >= 0.0;
+    return regular || f.au == 0.0 ? zv >= 0.0 : (zv * f.au - zu * f.av) * f.au >= 0.0;
 }
 
 static inline Step step_of(Search *q, BezierRect r, int du, int dv, Rest *rest) {
-    Net p;
+    QiNet p;
     int count = (du + 1) * (dv + 1);
     q->steps++;
-    restrict_net(&q->whole, du, dv, r, &p);
+    restrict_net(&q->target.whole, du, dv, r, &p);
     Span depth = span_of(p.z, count);
-    if (depth.high + q->frame.slack_z < q->frame.z_low ||
-        depth.low - q->frame.slack_z > qi_list_z_high(&q->list, &q->frame))
+    if (depth.high + q->target.frame.slack_z < q->target.frame.z_low ||
+        depth.low - q->target.frame.slack_z > qi_list_z_high(&q->target.list, &q->target.frame))
         return STEP_DONE;
 
-    Form forms[2];
+    QiForm forms[2];
     Remainder bounds[2];
-    bool regular = choose_forms(trend_u(p.x, du, dv), trend_u(p.y, du, dv), trend_v(p.x, du, dv),
+    bool regular = choose_forms(q, trend_u(p.x, du, dv), trend_u(p.y, du, dv), trend_v(p.x, du, dv),
                                 trend_v(p.y, du, dv), forms);
     double zu = quasi_z_infinity(du), zv = quasi_z_infinity(dv);
     Span u = {0.0, 1.0}, v = {0.0, 1.0};
     for (int k = 0; k < 2; k++) {
-        bounds[k] = bound_remainder(&p, du, dv, forms[k], zu, zv, q->frame.slack);
+        bounds[k] = bound_remainder(&p, du, dv, forms[k], zu, zv, &q->target.frame);
         if (!clip(forms[k].au, forms[k].av, bounds[k].span, v, &u) ||
             !clip(forms[k].av, forms[k].au, bounds[k].span, u, &v))
             return STEP_DONE;
@@ -479,43 +323,57 @@ static inline Step step_of(Search *q, BezierRect r, int du, int dv, Rest *rest) 
     narrow(&left.u0, &left.u1, u);
     narrow(&left.v0, &left.v1, v);
     rest->rect = left;
-    if (regular && bounds[0].slope <= 0.25 && bounds[1].slope <= 0.25) {
-        sharpen_single(q, left, 0.5 * (left.u0 + left.u1), 0.5 * (left.v0 + left.v1),
-                       (fabs(forms[0].bx) + fabs(forms[0].by)) * (r.u1 - r.u0),
-                       (fabs(forms[1].bx) + fabs(forms[1].by)) * (r.v1 - r.v0));
-        return STEP_DONE;
+    double slope = larger(bounds[0].slope, bounds[1].slope);
+    if (regular && slope <= LIKELY_SLOPE) {
+        double sx = 2.0 * QI_ROOT_SLACKS * q->target.frame.slack_x,
+               sy = 2.0 * QI_ROOT_SLACKS * q->target.frame.slack_y;
+        double error_u = (fabs(forms[0].bx) * sx + fabs(forms[0].by) * sy) * (r.u1 - r.u0);
+        double error_v = (fabs(forms[1].bx) * sx + fabs(forms[1].by) * sy) * (r.v1 - r.v0);
+        // Twice the rounding, times 1 / (1 - L).
+        double stretch = 1.0 / (1.0 - slope);
+        if (qi_root_sharpen(&q->target, left, stretch * error_u, stretch * error_v) ||
+            slope <= CERTAIN_SLOPE)
+            return STEP_DONE;
     }
     double wu = left.u1 - left.u0, wv = left.v1 - left.v0;
     bool least = wu <= LEAST_WIDTH && wv <= LEAST_WIDTH;
-    if ((within(&p, count, q->frame.tolerance) || least) && (settle(q, left) || least))
-        return STEP_DONE;
     // A width at its least counts as not shrinking, so that each such step halves what can shrink.
     double kept_u = wu > LEAST_WIDTH ? wu / (r.u1 - r.u0) : 1.0;
     double kept_v = wv > LEAST_WIDTH ? wv / (r.v1 - r.v0) : 1.0;
-    if (kept_u * kept_v <= 0.5)
+    if (!least && kept_u * kept_v <= 0.5)
         return STEP_AGAIN;
+    if (!regular && bounds[0].slope < fmin(fabs(forms[0].au), fabs(forms[0].av)) &&
+        weak_form(&p, count, forms[1], &q->target.frame) &&
+        qi_root_settle_curve(&q->target, left, forms[0],
+                             fabs(forms[0].bx) * q->target.frame.slack_x +
+                                 fabs(forms[0].by) * q->target.frame.slack_y))
+        return STEP_DONE;
+    if ((within(&p, count, q->target.frame.tolerance) || least) &&
+        (qi_root_settle(&q->target, left) || least))
+        return STEP_DONE;
 
     double along_u, along_v;
-    lengths(&p, du, dv, &along_u, &along_v);
+    lengths(q, &p, du, dv, &along_u, &along_v);
     along_u *= u.high - u.low;
     along_v *= v.high - v.low;
     rest->along_u = wv <= LEAST_WIDTH || (wu > LEAST_WIDTH && along_u >= along_v);
-    rest->low_first = (rest->along_u ? trend_u(p.z, du, dv) : trend_v(p.z, du, dv)) >= 0.0;
+    rest->low_first =
+        nearer_low(rest->along_u, regular, forms[0], trend_u(p.z, du, dv), trend_v(p.z, du, dv));
     return STEP_HALVE;
 }
 
 // The bicubic case gets its own copy, with loops of known length.
 static Step step_bicubic(Search *q, BezierRect r, Rest *rest) { return step_of(q, r, 3, 3, rest); }
 static Step step_any(Search *q, BezierRect r, Rest *rest) {
-    return step_of(q, r, q->du, q->dv, rest);
+    return step_of(q, r, q->target.du, q->target.dv, rest);
 }
 
 // Beyond the work limit: only the half whose middle is nearer to the ray is followed.
 static bool first_half_nearer(const Search *q, const BezierRect half[2]) {
     double off[2];
     for (int k = 0; k < 2; k++) {
-        Point p = eval(q, 0.5 * (half[k].u0 + half[k].u1), 0.5 * (half[k].v0 + half[k].v1));
-        off[k] = p.x * p.x + p.y * p.y;
+        off[k] = qi_root_off(&q->target, 0.5 * (half[k].u0 + half[k].u1),
+                             0.5 * (half[k].v0 + half[k].v1));
     }
     return off[0] <= off[1];
 }
@@ -524,12 +382,12 @@ static void search(Search *q, BezierRect rect) {
     BezierRect stack[STACK];
     int count = 0;
     stack[count++] = rect;
-    while (count > 0 && !qi_list_done(&q->list)) {
+    while (count > 0 && !qi_list_done(&q->target.list)) {
         Rest rest = {stack[--count], false, false};
         Step step;
         do {
-            step = q->du == 3 && q->dv == 3 ? step_bicubic(q, rest.rect, &rest)
-                                            : step_any(q, rest.rect, &rest);
+            step = q->target.du == 3 && q->target.dv == 3 ? step_bicubic(q, rest.rect, &rest)
+                                                          : step_any(q, rest.rect, &rest);
         } while (step == STEP_AGAIN);
         if (step == STEP_DONE)
             continue;
@@ -554,26 +412,18 @@ static int intersect(const Bezier *patch, const QiQuery *query, QiMode mode, QiS
                      QiSink sink, void *context) {
     QiFound found[QI_MAX_HITS];
     Search q;
-    Bezier framed;
-    if (!qi_frame_init(&q.frame, patch, query, &framed))
+    if (!qi_target_init(&q.target, patch, query, mode, found, mode == QI_ALL ? QI_MAX_HITS : 1))
         return 0;
-    q.du = patch->du;
-    q.dv = patch->dv;
-    for (int k = 0; k < bezier_count(patch); k++) {
-        q.whole.x[k] = framed.p[k].x;
-        q.whole.y[k] = framed.p[k].y;
-        q.whole.z[k] = framed.p[k].z;
-    }
-    q.list = (QiList){mode, query->t_min, query->t_max, 0, mode == QI_ALL ? QI_MAX_HITS : 1, found};
-    q.steps = q.newton = 0;
+    q.steps = 0;
     q.work_limit = (uint64_t)qi_work_limit(patch);
     search(&q, query->rect);
     if (stats) {
         stats->steps += q.steps;
-        stats->newton += q.newton;
+        stats->newton += q.target.newton;
         stats->limited += q.steps > q.work_limit;
     }
-    return qi_list_report(&q.list, patch, &q.frame, query->ray.dir, stats, sink, context);
+    return qi_list_report(&q.target.list, patch, &q.target.frame, query->ray.dir, stats, sink,
+                          context);
 }
 
 int qi_reduce_all(const Bezier *patch, const QiQuery *query, QiStats *stats, QiSink sink,

@@ -1,0 +1,267 @@
+// SPDX-License-Identifier: MIT
+// Points and roots of a patch in the ray's frame. See qi_root.h.
+#include "patch/qi_root.h"
+
+#include <float.h>
+
+enum { LINE = BEZIER_MAX_DEGREE + 1 };
+
+typedef struct {
+    double x, y, z, xu, yu, xv, yv;
+} Point;
+
+// Bernstein weights and their derivatives at t.
+static inline void weights(int d, double t, double *value, double *slope) {
+    double low[LINE] = {1.0};
+    for (int m = 1; m < d; m++) {
+        low[m] = 0.0;
+        for (int i = m; i > 0; i--)
+            low[i] = low[i] * (1.0 - t) + low[i - 1] * t;
+        low[0] *= 1.0 - t;
+    }
+    for (int i = 0; i <= d; i++) {
+        double here = i < d ? low[i] : 0.0, before = i > 0 ? low[i - 1] : 0.0;
+        value[i] = here * (1.0 - t) + before * t;
+        slope[i] = d * (before - here);
+    }
+}
+
+static inline Point eval_net(const QiNet *n, int du, int dv, double u, double v) {
+    double wu[LINE], su[LINE], wv[LINE], sv[LINE];
+    weights(du, u, wu, su);
+    weights(dv, v, wv, sv);
+    Point p = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
+    for (int i = 0; i <= du; i++) {
+        const double *x = n->x + i * (dv + 1), *y = n->y + i * (dv + 1), *z = n->z + i * (dv + 1);
+        double rx = 0.0, ry = 0.0, rz = 0.0, rxv = 0.0, ryv = 0.0;
+        for (int j = 0; j <= dv; j++) {
+            rx += x[j] * wv[j];
+            ry += y[j] * wv[j];
+            rz += z[j] * wv[j];
+            rxv += x[j] * sv[j];
+            ryv += y[j] * sv[j];
+        }
+        p.x += rx * wu[i];
+        p.y += ry * wu[i];
+        p.z += rz * wu[i];
+        p.xu += rx * su[i];
+        p.yu += ry * su[i];
+        p.xv += rxv * wu[i];
+        p.yv += ryv * wu[i];
+    }
+    return p;
+}
+
+static Point eval(const QiTarget *q, double u, double v) {
+    if (q->du == 3 && q->dv == 3)
+        return eval_net(&q->whole, 3, 3, u, v);
+    return eval_net(&q->whole, q->du, q->dv, u, v);
+}
+
+static double clamp(double x, double low, double high) {
+    return x < low ? low : x > high ? high : x;
+}
+
+// ---- Hits ----
+
+static bool in_range(const QiTarget *q, double z) {
+    double t = qi_frame_t(&q->frame, z);
+    return t >= q->list.t_min && t < q->list.t_max;
+}
+
+static void add_found(QiTarget *q, Point p, double u, double v, BezierRect rect, int sign) {
+    QiFound found;
+    found.t = qi_frame_t(&q->frame, p.z);
+    found.z = p.z;
+    found.u = u;
+    found.v = v;
+    found.bound = sqrt(p.x * p.x + p.y * p.y) + q->frame.rounding;
+    found.rect = rect;
+    found.sign = sign;
+    qi_list_add(&q->list, found);
+}
+
+// Distance from the ray as the weights measure it.
+static double off_ray(const QiTarget *q, Point p) {
+    return fabs(p.x) * q->weight_x + fabs(p.y) * q->weight_y;
+}
+
+static bool on_ray(const QiTarget *q, Point p, double slacks) {
+    return fabs(p.x) <= slacks * q->frame.slack_x && fabs(p.y) <= slacks * q->frame.slack_y;
+}
+
+bool qi_root_sharpen(QiTarget *q, BezierRect rect, double error_u, double error_v) {
+    double u = 0.5 * (rect.u0 + rect.u1), v = 0.5 * (rect.v0 + rect.v1);
+    Point p = eval(q, u, v);
+    // At 2/3 a step throughout, 96 steps would still take any start to 2^-53 of the piece.
+    for (int n = 0; n < 96; n++) {
+        double det = p.xu * p.yv - p.xv * p.yu;
+        double nu = clamp(u - (p.yv * p.x - p.xv * p.y) / det, rect.u0, rect.u1);
+        double nv = clamp(v - (p.xu * p.y - p.yu * p.x) / det, rect.v0, rect.v1);
+        if (!(fabs(nu - u) + fabs(nv - v) > DBL_EPSILON)) // no step left, or no number
+            break;
+        Point next = eval(q, nu, nv);
+        q->newton++;
+        if (on_ray(q, p, QI_ROOT_SLACKS) && off_ray(q, next) >= off_ray(q, p))
+            break; // as near as rounding lets it come
+        u = nu, v = nv, p = next;
+        if (on_ray(q, p, 0.0625))
+            break;
+    }
+    if (!on_ray(q, p, QI_ROOT_SLACKS))
+        return false;
+    double det = p.xu * p.yv - p.xv * p.yu;
+    add_found(q, p, u, v, (BezierRect){u - error_u, u + error_u, v - error_v, v + error_v},
+              det > 0.0 ? 1 : -1);
+    return true;
+}
+
+// A few damped least-squares steps towards the ray inside rect: they find a double or multiple root
+// too, or a point of a whole curve of them. Keeps what is nearer to the ray and in range.
+static Point sharpen_any(QiTarget *q, BezierRect rect, Point p, double *u, double *v) {
+    double wx = q->weight_x, wy = q->weight_y;
+    for (int n = 0; n < 8; n++) {
+        double x = wx * p.x, xu = wx * p.xu, xv = wx * p.xv, y = wy * p.y, yu = wy * p.yu,
+               yv = wy * p.yv;
+        double a = xu * xu + yu * yu, b = xu * xv + yu * yv, c = xv * xv + yv * yv;
+        double gu = xu * x + yu * y, gv = xv * x + yv * y, damp = 1e-12 * (a + c);
+        double det = (a + damp) * (c + damp) - b * b;
+        double nu = clamp(*u - ((c + damp) * gu - b * gv) / det, rect.u0, rect.u1);
+        double nv = clamp(*v - ((a + damp) * gv - b * gu) / det, rect.v0, rect.v1);
+        if (!(fabs(nu - *u) + fabs(nv - *v) > DBL_EPSILON))
+            break;
+        Point next = eval(q, nu, nv);
+        q->newton++;
+        if (!(off_ray(q, next) < off_ray(q, p)) || !in_range(q, next.z) ||
+            !(next.x * next.x + next.y * next.y <= q->frame.tolerance * q->frame.tolerance))
+            break;
+        *u = nu, *v = nv, p = next;
+    }
+    return p;
+}
+
+// It starts from the nearest corner whose depth is in range; where the corners lie on both sides of
+// t_min, from a point between two of them that is.
+bool qi_root_settle(QiTarget *q, BezierRect r) {
+    const double us[4] = {r.u0, r.u0, r.u1, r.u1}, vs[4] = {r.v0, r.v1, r.v0, r.v1};
+    Point corners[4];
+    int best = -1, before = -1, behind = -1;
+    for (int k = 0; k < 4; k++) {
+        corners[k] = eval(q, us[k], vs[k]);
+        double z = corners[k].z;
+        if (in_range(q, z))
+            best = best < 0 || z < corners[best].z ? k : best;
+        else if (qi_frame_t(&q->frame, z) < q->list.t_min)
+            before = k;
+        else
+            behind = k;
+    }
+    double u = 0.5 * (r.u0 + r.u1), v = 0.5 * (r.v0 + r.v1);
+    Point p = eval(q, u, v);
+    if (before >= 0 && (best >= 0 || behind >= 0)) {
+        // Bisect for the first depth in range between the two.
+        int far = best >= 0 ? best : behind;
+        double low = 0.0, high = 1.0;
+        for (int n = 0; n < 56; n++) {
+            double at = 0.5 * (low + high);
+            double nu = us[before] + at * (us[far] - us[before]);
+            double nv = vs[before] + at * (vs[far] - vs[before]);
+            Point next = eval(q, nu, nv);
+            bool early = qi_frame_t(&q->frame, next.z) < q->list.t_min;
+            if (!early)
+                u = nu, v = nv, p = next;
+            *(early ? &low : &high) = at;
+        }
+    } else if (best >= 0) {
+        u = us[best], v = vs[best], p = corners[best];
+    }
+    if (!in_range(q, p.z))
+        return false;
+    p = sharpen_any(q, r, p, &u, &v);
+    add_found(q, p, u, v, r, 0);
+    return true;
+}
+
+// Where a form that grows from one point of parameters to another is 0, by bisection; it is <= 0 at
+// `low` and >= 0 at `high`, up to rounding.
+static Point zero_between(const QiTarget *q, QiForm f, const double low[2], const double high[2],
+                          double at[2]) {
+    double a = 0.0, b = 1.0;
+    Point p;
+    do {
+        double mid = 0.5 * (a + b);
+        at[0] = low[0] + mid * (high[0] - low[0]);
+        at[1] = low[1] + mid * (high[1] - low[1]);
+        p = eval(q, at[0], at[1]);
+        *(f.bx * p.x + f.by * p.y < 0.0 ? &a : &b) = mid;
+    } while (b - a > DBL_EPSILON);
+    return p;
+}
+
+bool qi_root_settle_curve(QiTarget *q, BezierRect r, QiForm f, double slack) {
+    double lu = f.au > 0.0 ? r.u0 : r.u1, hu = f.au > 0.0 ? r.u1 : r.u0;
+    double lv = f.av > 0.0 ? r.v0 : r.v1, hv = f.av > 0.0 ? r.v1 : r.v0;
+    const double least[2] = {lu, lv}, most[2] = {hu, hv}, sides[2][2] = {{hu, lv}, {lu, hv}};
+    Point p = eval(q, lu, lv), top = eval(q, hu, hv);
+    if (f.bx * p.x + f.by * p.y > slack || f.bx * top.x + f.by * top.y < -slack)
+        return true; // nowhere
+    double at[2] = {lu, lv}, ends[2][2];
+    bool found = false, early[2];
+    for (int k = 0; k < 2; k++) {
+        Point side = eval(q, sides[k][0], sides[k][1]);
+        bool beyond = f.bx * side.x + f.by * side.y >= 0.0;
+        Point end =
+            zero_between(q, f, beyond ? least : sides[k], beyond ? sides[k] : most, ends[k]);
+        early[k] = qi_frame_t(&q->frame, end.z) < q->list.t_min;
+        if (in_range(q, end.z) && (!found || end.z < p.z)) {
+            found = true;
+            p = end, at[0] = ends[k][0], at[1] = ends[k][1];
+        }
+    }
+    if (early[0] != early[1]) {
+        double a = 0.0, b = 1.0; // b: the end that is not early
+        for (int n = 0; n < 53; n++) {
+            double mid = 0.5 * (a + b), from = early[0] ? mid : 1.0 - mid;
+            double v = ends[0][1] + from * (ends[1][1] - ends[0][1]), spot[2];
+            const double low[2] = {lu, v}, high[2] = {hu, v};
+            Point next = zero_between(q, f, low, high, spot);
+            bool is_early = qi_frame_t(&q->frame, next.z) < q->list.t_min;
+            *(is_early ? &a : &b) = mid;
+            if (!is_early && in_range(q, next.z)) {
+                found = true;
+                p = next, at[0] = spot[0], at[1] = spot[1];
+            }
+        }
+    }
+    if (!found || !(p.x * p.x + p.y * p.y <= q->frame.tolerance * q->frame.tolerance))
+        return false;
+    add_found(q, p, at[0], at[1], r, 0);
+    return true;
+}
+
+double qi_root_off(const QiTarget *q, double u, double v) { return off_ray(q, eval(q, u, v)); }
+
+// A coordinate below a thousand times its own rounding keeps that size: it must not look important.
+static double weight_of(double side, double slack) {
+    double size = fmax(side, 1024.0 * slack);
+    return size > DBL_MIN ? 1.0 / size : 1.0;
+}
+
+bool qi_target_init(QiTarget *q, const Bezier *patch, const QiQuery *query, QiMode mode,
+                    QiFound *found, int capacity) {
+    Bezier framed;
+    if (!qi_frame_init(&q->frame, FRAME_SKEW, patch, query, &framed))
+        return false;
+    q->du = patch->du;
+    q->dv = patch->dv;
+    for (int k = 0; k < bezier_count(patch); k++) {
+        q->whole.x[k] = framed.p[k].x;
+        q->whole.y[k] = framed.p[k].y;
+        q->whole.z[k] = framed.p[k].z;
+    }
+    q->weight_x = weight_of(q->frame.side_x, q->frame.slack_x);
+    q->weight_y = weight_of(q->frame.side_y, q->frame.slack_y);
+    q->list = (QiList){mode, query->t_min, query->t_max, 0, capacity, found};
+    q->newton = 0;
+    return true;
+}

@@ -656,6 +656,11 @@ static void odd_questions(void **state) {
         assert_false(patchset_occluded(scene.set, &ray, 5, 5, 1, NULL));
         Ray odd = {ray.org, vec3(-0.0, 0.0, 1)};
         assert_true(patchset_occluded(scene.set, &odd, 0, INFINITY, 1, NULL));
+        if (method != METHOD_FACETS) { // behind the origin, when t_min says so
+            odd = (Ray){vec_madd(ray.org, 9, ray.dir), ray.dir};
+            assert_false(patchset_occluded(scene.set, &odd, 0, INFINITY, 1, NULL));
+            assert_true(patchset_occluded(scene.set, &odd, -INFINITY, INFINITY, 1, NULL));
+        }
         odd.dir = vec3(0, 0, 0);
         assert_false(patchset_occluded(scene.set, &odd, 0, INFINITY, 1, NULL));
         odd.dir = vec3(0, NAN, 1);

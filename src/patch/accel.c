@@ -199,7 +199,7 @@ static bool visit_leaf(void *context, uint32_t leaf, TreeRay *ray) {
     Walk *walk = context;
     const Block *block = &walk->accel->blocks[leaf];
     LocalRay local;
-    walk->query->stats.patch_tests++;
+    walk->query->stats.patch_tests += block->count;
     if (!to_block(block, ray, &local))
         return true;
     walk->query->stats.steps += block->count;

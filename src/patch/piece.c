@@ -60,23 +60,24 @@ static void weights(int n, double t, double *w, double *dw) {
     }
 }
 
-static void eval_cubic(const double *local, double u, double v, Vec3 out[3]) {
-    double wu[4], du[4], wv[4], dv[4], result[3][3];
+// Points as [column][row][x y z 0]: loops over adjacent numbers, which become vector code.
+static void eval_cubic(const double *p, double u, double v, Vec3 out[3]) {
+    double wu[4], du[4], wv[4], dv[4], row[16], slope[16], s[4], su[4], sv[4];
     weights_cubic(u, wu, du);
     weights_cubic(v, wv, dv);
-    for (int axis = 0; axis < 3; axis++) {
-        const double *p = local + 16 * axis;
-        double row[4], slope[4];
-        for (int i = 0; i < 4; i++) {
-            row[i] = wv[0] * p[i] + wv[1] * p[4 + i] + wv[2] * p[8 + i] + wv[3] * p[12 + i];
-            slope[i] = dv[0] * p[i] + dv[1] * p[4 + i] + dv[2] * p[8 + i] + dv[3] * p[12 + i];
-        }
-        result[0][axis] = wu[0] * row[0] + wu[1] * row[1] + wu[2] * row[2] + wu[3] * row[3];
-        result[1][axis] = du[0] * row[0] + du[1] * row[1] + du[2] * row[2] + du[3] * row[3];
-        result[2][axis] = wu[0] * slope[0] + wu[1] * slope[1] + wu[2] * slope[2] + wu[3] * slope[3];
+    for (int k = 0; k < 16; k++) {
+        row[k] = wv[0] * p[k] + wv[1] * p[16 + k] + wv[2] * p[32 + k] + wv[3] * p[48 + k];
+        slope[k] = dv[0] * p[k] + dv[1] * p[16 + k] + dv[2] * p[32 + k] + dv[3] * p[48 + k];
     }
-    for (int k = 0; k < 3; k++)
-        out[k] = vec3(result[k][0], result[k][1], result[k][2]);
+    for (int k = 0; k < 4; k++) {
+        s[k] = wu[0] * row[k] + wu[1] * row[4 + k] + wu[2] * row[8 + k] + wu[3] * row[12 + k];
+        su[k] = du[0] * row[k] + du[1] * row[4 + k] + du[2] * row[8 + k] + du[3] * row[12 + k];
+        sv[k] =
+            wu[0] * slope[k] + wu[1] * slope[4 + k] + wu[2] * slope[8 + k] + wu[3] * slope[12 + k];
+    }
+    out[0] = vec3(s[0], s[1], s[2]);
+    out[1] = vec3(su[0], su[1], su[2]);
+    out[2] = vec3(sv[0], sv[1], sv[2]);
 }
 
 static void eval_any(const AccelPatch *patch, double u, double v, Vec3 out[3]) {
@@ -162,9 +163,11 @@ static void measure(const Cutter *k, const Bezier *s, const Bezier *net, Cut *ou
                        vec_add(quasi_deviation_axes(s), slack));
 }
 
-// Upwards, with room for the rounding of differences of points that are off by `error`.
+// Upwards, with room for the rounding of differences of points that are off by `error`, and for
+// PIECE_MARGIN = m: outside of [0,1] by m the Bernstein weights' absolute values sum up to
+// (1 + 2 m)^n, for 16 twice that is below 1 + 2^-13.
 static float bound_up(double bound, double error) {
-    double up = (bound + error) * (1.0 + 0x1p-20) + DBL_MIN;
+    double up = (bound + error) * (1.0 + 0x1p-12) + DBL_MIN;
     return up < (double)FLT_MAX ? (float)up : INFINITY;
 }
 
@@ -290,15 +293,15 @@ static AccelPatch make_patch(Arena *arena, const PatchDef *def, double tolerance
                         .center = vec_add(vec_scale(box.low, 0.5), vec_scale(box.high, 0.5)),
                         .cubic = rows == 4 && columns == 4,
                         .tolerance = tolerance * vec_length(vec_sub(box.high, box.low))};
-    double *local = ARENA_ARRAY(arena, double, (size_t)(3 * rows * columns)), reach = 0.0;
-    for (int axis = 0; axis < 3; axis++) {
-        for (int i = 0; i < rows; i++) {
-            for (int j = 0; j < columns; j++) {
-                double x =
-                    vec_get(def->points[i * columns + j], axis) - vec_get(patch.center, axis);
-                int at = patch.cubic ? j * rows + i : i * columns + j;
-                local[axis * rows * columns + at] = x;
-                reach = fmax(reach, fabs(x));
+    size_t count = patch.cubic ? 64 : (size_t)(3 * rows * columns);
+    double *local = ARENA_ARRAY(arena, double, count), reach = 0.0;
+    for (int i = 0; i < rows; i++) {
+        for (int j = 0; j < columns; j++) {
+            Vec3 q = vec_sub(def->points[i * columns + j], patch.center);
+            for (int axis = 0; axis < 3; axis++) {
+                int at = patch.cubic ? (4 * j + i) * 4 + axis : (axis * rows + i) * columns + j;
+                local[at] = vec_get(q, axis);
+                reach = fmax(reach, fabs(local[at]));
             }
         }
     }

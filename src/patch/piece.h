@@ -24,11 +24,14 @@ enum { BLOCK_LANES = 8 };
 typedef struct {
     const PatchDef *def;
     Vec3 center;
-    const double *local; // points less center; cubic: [3][columns][rows], else [3][rows][columns]
+    const double *local; // points less center; cubic: [column][row][4], else [3][row][column]
     bool cubic;          // bi-degree (3,3)
     double rounding;     // of a coordinate of S; of its derivatives: times twice the degree
     double tolerance;    // scene units
 } AccelPatch;
+
+// How far outside its rectangle, in shares of its size, a piece's bounds still hold.
+#define PIECE_MARGIN 0x1p-20
 
 typedef struct {
     BezierRect rect;

@@ -170,7 +170,12 @@ typedef enum { SHARPEN_NO, SHARPEN_TAKEN, SHARPEN_STOP } Sharpened;
 // Taylor rest is part of the bound. SHARPEN_NO: there is none as near as the tolerance asks.
 static Sharpened sharpen(const PatchRay *ray, const Piece *piece, double u, double v, Query *query,
                          RootTake take, void *context) {
+    // Up to a hair outside of the piece, where its bounds still hold: then neighbours agree.
     const BezierRect *rect = &piece->rect;
+    double hair_u = PIECE_MARGIN * (rect->u1 - rect->u0),
+           hair_v = PIECE_MARGIN * (rect->v1 - rect->v0);
+    const double u0 = larger(rect->u0 - hair_u, 0.0), u1 = smaller(rect->u1 + hair_u, 1.0);
+    const double v0 = larger(rect->v0 - hair_v, 0.0), v1 = smaller(rect->v1 + hair_v, 1.0);
     const double muu = (double)piece->muu, muv = (double)piece->muv, mvv = (double)piece->mvv;
     // What rounding leaves is as good as can be had.
     const double tolerance = larger(ray->patch->tolerance, 2.0 * ray->error);
@@ -179,8 +184,8 @@ static Sharpened sharpen(const PatchRay *ray, const Piece *piece, double u, doub
         Point p;
         look(ray, u, v, &p);
         double steep = 1.0 / p.det;
-        double a = clamp(p.nu * steep, rect->u0 - u, rect->u1 - u);
-        double b = clamp(p.nv * steep, rect->v0 - v, rect->v1 - v);
+        double a = clamp(p.nu * steep, u0 - u, u1 - u);
+        double b = clamp(p.nv * steep, v0 - v, v1 - v);
         if (!(fabs(p.det) > 0.0)) // also NaN
             return SHARPEN_NO;
         double turn_u = muu * fabs(a) + muv * fabs(b), turn_v = muv * fabs(a) + mvv * fabs(b);
@@ -192,8 +197,8 @@ static Sharpened sharpen(const PatchRay *ray, const Piece *piece, double u, doub
         // Does the correction turn the normal? Then look there. Where it goes nowhere (a ray beside
         // the patch's edge) the turn is 0.
         double turn = turn_u * length1(p.sv) + turn_v * length1(p.su);
-        u = clamp(u + a, 0.0, 1.0);
-        v = clamp(v + b, 0.0, 1.0);
+        u = clamp(u + a, u0, u1);
+        v = clamp(v + b, v0, v1);
         if (!(distance <= tolerance && turn <= NORMAL_ERROR * area))
             continue;
         Root root = {.hit = {.t = ray->t_base + s * ray->t_per_s,
@@ -220,8 +225,8 @@ static inline void guess(const Piece *piece, const Point *p, Span in_u, Span in_
     bend = vec_madd(bend, 0.5 * b * b, from_floats(piece->svv));
     a -= vec_dot(bend, p->m1) * steep;
     b -= vec_dot(bend, p->m2) * steep;
-    *u = p->u + clamp(a, in_u.low, in_u.high);
-    *v = p->v + clamp(b, in_v.low, in_v.high);
+    *u = clamp(p->u + clamp(a, in_u.low, in_u.high), piece->rect.u0, piece->rect.u1);
+    *v = clamp(p->v + clamp(b, in_v.low, in_v.high), piece->rect.v0, piece->rect.v1);
 }
 
 bool root_search(const PatchRay *ray, const Piece *piece, BezierRect rect, Query *query,

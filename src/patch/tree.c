@@ -268,7 +268,7 @@ bool tree_ray_begin(const Tree *tree, const Ray *ray, double t_min, double t_max
     out->unit = vec_scale(dir, 1.0 / length);
     out->s_per_t = length * power * tree->scale;
     const double grown = 1.0 + 4.0 * (double)TREE_PAD;
-    double entry = 0.0, exit = INFINITY, reach = 0.0, inverse[3];
+    double entry = t_min < 0.0 ? -INFINITY : 0.0, exit = INFINITY, reach = 0.0, inverse[3];
     for (int axis = 0; axis < 3; axis++) {
         double d = vec_get(out->unit, axis);
         if (fabs(d) < 0x1p-60)
@@ -284,7 +284,7 @@ bool tree_ray_begin(const Tree *tree, const Ray *ray, double t_min, double t_max
     }
     // The error of the shift: two roundings each of origin, entry x dir and their sum; and dir's
     // own rounding (four) over the way that is left.
-    out->error = (reach + entry + 4.0) * 0x1p-50;
+    out->error = (reach + fabs(entry) + 4.0) * 0x1p-50;
     out->far = !(out->error < 0x1p-23);
     out->s_base = 0.0;
     out->s_min = -4.0f;

@@ -183,9 +183,10 @@ static void run_message(Converter *cv, const Token *word) {
 
 // ---- all --------------------------------------------------------------------------------------
 
-_Noreturn static void die_unknown(Converter *cv, const Token *word) {
-    Loc loc = token_loc(cv, word);
-    die_at(&loc, "Expected 'object or directive', %s found after '#'", token_describe(cv, word));
+_Noreturn static void die_unknown(Converter *cv, const Token *hash, const Token *word) {
+    Loc loc = token_loc(cv, word ? word : hash);
+    die_at(&loc, "Expected 'object or directive', %s found after '#'",
+           word ? token_describe(cv, word) : "end of file");
 }
 
 static void run_plain(Converter *cv, const Token *word) {
@@ -225,28 +226,52 @@ static void run_plain(Converter *cv, const Token *word) {
     case KW_read:
         run_read(cv);
         break;
-    case KW_write:
+    default: // KW_write
         run_write(cv);
-        break;
+    }
+}
+
+static bool is_directive(int code) {
+    switch (code) {
+    case KW_declare:
+    case KW_local:
+    case KW_undef:
+    case KW_include:
+    case KW_version:
+    case KW_default:
+    case KW_macro:
+    case KW_debug:
+    case KW_warning:
+    case KW_error:
+    case KW_render:
+    case KW_statistics:
+    case KW_fopen:
+    case KW_fclose:
+    case KW_read:
+    case KW_write:
+        return true;
     default:
-        die_unknown(cv, word);
+        return false;
     }
 }
 
 void run_directive(Converter *cv, const Token *hash) {
     const Token *word = raw_peek(cv);
-    if (!word) {
-        Loc loc = token_loc(cv, hash);
-        die_at(&loc, "Expected 'object or directive', end of file found after '#'");
-    }
-    raw_token(cv);
-    cv->language->last = word;
+    const Symbol *symbol =
+        word && word->code == TOK_IDENTIFIER ? name_symbol(cv, word->name) : NULL;
+    if (!word || word->code == TOK_NUMBER || (word->code == TOK_IDENTIFIER && !symbol))
+        die_unknown(cv, hash, word);
     enter_level(cv);
-    const Symbol *symbol = word->code == TOK_IDENTIFIER ? name_symbol(cv, word->name) : NULL;
-    if (symbol && symbol->value.type == VALUE_MACRO)
-        call_macro(cv, word, symbol->value.node);
-    else if (!run_conditional(cv, word))
+    if (is_directive(word->code)) {
+        cv->language->last = raw_token(cv);
         run_plain(cv, word);
+    } else if (!run_conditional(cv)) {
+        // POV-Ray drops a '#' before anything else: '#object' is 'object', '#Macro()' a call.
+        if (!symbol || symbol->value.type != VALUE_MACRO) {
+            Loc loc = token_loc(cv, hash);
+            warn_at(&loc, "'#' has no meaning before %s", token_describe(cv, word));
+        }
+    }
     leave_level(cv);
 }
 

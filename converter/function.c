@@ -21,7 +21,7 @@ int function_width(const Function *f) {
     case BODY_SPLINE:
         return spline_evaluate(f->spline, SPLINE_LINEAR, 0, e);
     case BODY_PIGMENT:
-        return f->value.type == VALUE_PIGMENT ? 5 : 1;
+        return 5;
     default:
         return 1;
     }
@@ -55,7 +55,8 @@ static size_t run_user(Machine *m, const Instruction *in, size_t top) {
     size_t first = top - (size_t)in->user->parameter_count;
     double e[5] = {0};
     evaluate_body(in->user, m->stack + first, m->steps, e);
-    m->stack[first] = e[in->i];
+    // Component -1 is the grey of a colour.
+    m->stack[first] = in->i < 0 ? 0.297 * e[0] + 0.589 * e[1] + 0.114 * e[2] : e[in->i];
     return first + 1;
 }
 

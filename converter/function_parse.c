@@ -175,9 +175,9 @@ static void compile_series(Compiler *c, Op op) {
 
 // ( OR [,] ... ) [ '.' member ]
 static void compile_user_call(Compiler *c, const Function *user) {
-    static const int members[][2] = {{KW_x, 0}, {KW_u, 0},      {KW_red, 0},     {KW_y, 1},
-                                     {KW_v, 1}, {KW_green, 1},  {KW_z, 2},       {KW_blue, 2},
-                                     {KW_t, 3}, {KW_filter, 3}, {KW_transmit, 4}};
+    static const int members[][2] = {
+        {KW_x, 0}, {KW_u, 0},    {KW_red, 0},   {KW_y, 1}, {KW_v, 1},      {KW_green, 1},
+        {KW_z, 2}, {KW_blue, 2}, {KW_gray, -1}, {KW_t, 3}, {KW_filter, 3}, {KW_transmit, 4}};
     expect(c->cv, '(', "function call");
     for (int i = 0; i < user->parameter_count; i++) {
         if (i)
@@ -393,7 +393,9 @@ static bool parse_special(Compiler *c) {
         f->parameter_count = 1;
         f->spline = parse_spline(cv);
     } else if (next_is(cv, KW_transform) || next_is(cv, KW_pigment) || next_is(cv, KW_pattern)) {
-        f->kind = next_is(cv, KW_transform) ? BODY_TRANSFORM : BODY_PIGMENT;
+        f->kind = next_is(cv, KW_transform) ? BODY_TRANSFORM
+                  : next_is(cv, KW_pigment) ? BODY_PIGMENT
+                                            : BODY_PATTERN;
         if (!parse_statement_value(cv, &f->value))
             die_expected(cv, "a function's body");
     } else {

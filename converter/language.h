@@ -242,8 +242,8 @@ void expect_raw(Converter *cv, int code, const char *where);
 void run_directive(Converter *cv, const Token *hash); // after its '#'
 void check_all_closed(Converter *cv);                 // at the end of the main file
 bool place_is_set(Converter *cv);                     // ( IDENTIFIER [subscripts] )
-// loop.c: true if word was one of #if ... #end.
-bool run_conditional(Converter *cv, const Token *word);
+// loop.c: if the word after the '#' is one of if ... end, takes it and runs it.
+bool run_conditional(Converter *cv);
 const char *innermost_loop(Converter *cv, Loc *loc); // its name for a message, or NULL
 void define_macro(Converter *cv, const Token *word);
 void call_macro(Converter *cv, const Token *name, const Macro *macro);

@@ -293,37 +293,22 @@ static void run_break(Converter *cv, const Token *word) {
     leave_macro(cv);
 }
 
-bool run_conditional(Converter *cv, const Token *word) {
-    switch (word->code) {
-    case KW_if:
-    case KW_ifdef:
-    case KW_ifndef:
-        run_if(cv, word);
-        return true;
-    case KW_else:
-    case KW_elseif:
-        run_else(cv, word);
-        return true;
-    case KW_switch:
-        run_switch(cv, word);
-        return true;
-    case KW_case:
-    case KW_range:
-        run_case(cv, word);
-        return true;
-    case KW_while:
-        run_while(cv, word);
-        return true;
-    case KW_for:
-        run_for(cv, word);
-        return true;
-    case KW_break:
-        run_break(cv, word);
-        return true;
-    case KW_end:
-        run_end(cv, word);
-        return true;
-    default:
-        return false;
+bool run_conditional(Converter *cv) {
+    static const struct {
+        int code;
+        void (*run)(Converter *, const Token *);
+    } words[] = {
+        {KW_if, run_if},       {KW_ifdef, run_if},      {KW_ifndef, run_if},   {KW_else, run_else},
+        {KW_elseif, run_else}, {KW_switch, run_switch}, {KW_case, run_case},   {KW_range, run_case},
+        {KW_while, run_while}, {KW_for, run_for},       {KW_break, run_break}, {KW_end, run_end},
+    };
+    const Token *word = raw_peek(cv);
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++) {
+        if (words[i].code == word->code) {
+            cv->language->last = raw_token(cv);
+            words[i].run(cv, word);
+            return true;
+        }
     }
+    return false;
 }

@@ -100,12 +100,42 @@ static Transform random_transform(Rng *rng) {
     X(Vec3, location)                                                                              \
     X(Vec3, point_at)                                                                              \
     X(Rgb, color) X(bool, shadowless) X(double, fade_distance) X(double, fade_power)
+#define TURBULENCE_MEMBERS(X, at)                                                                  \
+    X(Vec3, at.amount) X(int, at.octaves) X(float, at.lambda) X(float, at.omega)
 #define PATTERN_MEMBERS(X)                                                                         \
     X(PatternType, pattern.type)                                                                   \
     X(WaveType, pattern.wave)                                                                      \
     X(float, pattern.frequency)                                                                    \
     X(float, pattern.phase)                                                                        \
-    X(float, pattern.exponent) X(Vec3, pattern.gradient) X(uint32_t, pattern.warp_count)
+    X(float, pattern.exponent)                                                                     \
+    X(int, pattern.noise_generator)                                                                \
+    X(Vec3, pattern.gradient)                                                                      \
+    X(float, pattern.agate_turb)                                                                   \
+    X(int, pattern.arms)                                                                           \
+    X(Vec3, pattern.brick_size)                                                                    \
+    X(float, pattern.mortar)                                                                       \
+    X(float[2], pattern.quilted)                                                                   \
+    X(Vec3, pattern.crackle.form)                                                                  \
+    X(double, pattern.crackle.metric)                                                              \
+    X(double, pattern.crackle.offset)                                                              \
+    X(bool, pattern.crackle.solid)                                                                 \
+    X(bool, pattern.has_turbulence)                                                                \
+    TURBULENCE_MEMBERS(X, pattern.turbulence)                                                      \
+    X(uint32_t, pattern.warp_count)
+#define REPEAT_MEMBERS(X)                                                                          \
+    X(int, repeat.axis) X(float, repeat.width) X(Vec3, repeat.offset) X(Vec3, repeat.flip)
+#define BLACK_HOLE_MEMBERS(X)                                                                      \
+    X(Vec3, black_hole.center)                                                                     \
+    X(double, black_hole.radius)                                                                   \
+    X(double, black_hole.strength)                                                                 \
+    X(double, black_hole.falloff)                                                                  \
+    X(bool, black_hole.inverse)                                                                    \
+    X(bool, black_hole.repeat)                                                                     \
+    X(Vec3, black_hole.repeat_size)                                                                \
+    X(Vec3, black_hole.uncertainty)
+#define MAPPING_MEMBERS(X)                                                                         \
+    X(Vec3, mapping.orientation)                                                                   \
+    X(double, mapping.distance) X(double, mapping.dist_exp) X(double, mapping.major_radius)
 #define PIGMENT_MEMBERS(X)                                                                         \
     X(Color, color)                                                                                \
     X(uint32_t, entry_count) X(bool, uv_mapping) X(bool, has_quick_color) X(Color, quick_color)
@@ -184,6 +214,79 @@ static Light make_light(Rng *rng) {
     };
 }
 
+static Turbulence make_turbulence(Rng *rng) {
+    return (Turbulence){
+        .amount = random_vec3(rng),
+        .octaves = 1 + (int)random_below(rng, 10),
+        .lambda = random_float(rng),
+        .omega = random_float(rng),
+    };
+}
+
+static Warp make_warp(Rng *rng) {
+    Warp warp = warp_default((WarpType)random_below(rng, WARP_TOROIDAL + 1));
+    switch (warp.type) {
+    case WARP_TRANSFORM:
+        warp.transform = random_transform(rng);
+        break;
+    case WARP_TURBULENCE:
+        warp.turbulence = make_turbulence(rng);
+        break;
+    case WARP_REPEAT: {
+        RepeatWarp *repeat = &warp.repeat;
+        repeat->axis = (int)random_below(rng, 3);
+        repeat->width = (float)rng_range(rng, 0.1, 5);
+        repeat->offset = random_vec3(rng);
+        repeat->flip = vec3(1, random_bool(rng) ? -1 : 1, random_bool(rng) ? -1 : 1);
+        break;
+    }
+    case WARP_BLACK_HOLE: {
+        BlackHoleWarp *hole = &warp.black_hole;
+        hole->center = random_vec3(rng);
+        hole->radius = rng_range(rng, 0, 5);
+        hole->strength = random_double(rng);
+        hole->falloff = random_double(rng);
+        hole->inverse = random_bool(rng);
+        hole->repeat = random_bool(rng);
+        if (hole->repeat)
+            hole->repeat_size = random_vec3(rng);
+        hole->uncertainty = random_vec3(rng);
+        break;
+    }
+    case WARP_TOROIDAL:
+        warp.mapping.major_radius = random_double(rng);
+        // fall through
+    case WARP_SPHERICAL:
+    case WARP_CYLINDRICAL:
+        warp.mapping.dist_exp = random_double(rng);
+        warp.mapping.orientation = random_unit(rng);
+        break;
+    case WARP_PLANAR:
+        warp.mapping.orientation = random_unit(rng);
+        warp.mapping.distance = random_double(rng);
+        break;
+    case WARP_CUBIC:
+        break;
+    }
+    return warp;
+}
+
+// What belongs to one pattern each; any of it may stand beside any pattern.
+static void make_pattern_shape(Rng *rng, Pattern *p) {
+    if (random_bool(rng))
+        return;
+    p->agate_turb = random_float(rng);
+    p->arms = (int)random_below(rng, 9) - 2;
+    p->brick_size = vec3(rng_range(rng, 0.1, 9), rng_range(rng, 0.1, 9), rng_range(rng, 0.1, 9));
+    p->mortar = random_float(rng);
+    p->quilted[0] = random_float(rng);
+    p->quilted[1] = random_float(rng);
+    p->crackle.form = random_vec3(rng);
+    p->crackle.metric = random_double(rng);
+    p->crackle.offset = random_double(rng);
+    p->crackle.solid = random_bool(rng);
+}
+
 static Pattern make_pattern(Rng *rng, Arena *arena) {
     Pattern p = pattern_default();
     p.type = (PatternType)random_below(rng, PATTERN_MODELLED);
@@ -191,11 +294,16 @@ static Pattern make_pattern(Rng *rng, Arena *arena) {
     p.frequency = random_float(rng);
     p.phase = random_float(rng);
     p.exponent = random_float(rng);
+    p.noise_generator = (int)random_below(rng, 4);
     p.gradient = random_unit(rng);
-    p.warp_count = random_below(rng, 3);
+    make_pattern_shape(rng, &p);
+    p.has_turbulence = random_bool(rng);
+    if (p.has_turbulence)
+        p.turbulence = make_turbulence(rng);
+    p.warp_count = random_below(rng, 4);
     p.warps = ARENA_ARRAY(arena, Warp, p.warp_count);
     for (uint32_t i = 0; i < p.warp_count; i++)
-        p.warps[i] = (Warp){.type = WARP_TRANSFORM, .transform = random_transform(rng)};
+        p.warps[i] = make_warp(rng);
     return p;
 }
 
@@ -204,7 +312,7 @@ static Pigment make_pigment(Rng *rng, Arena *arena, uint32_t index) {
     Pigment p = {.pattern = make_pattern(rng, arena), .uv_mapping = random_bool(rng)};
     p.color = random_color(rng);
     if (p.pattern.type != PATTERN_PLAIN)
-        p.entry_count = 1 + random_below(rng, 4);
+        p.entry_count = 6 + random_below(rng, 3); // enough for any list pattern
     p.entries = ARENA_ARRAY(arena, MapEntry, p.entry_count);
     for (uint32_t i = 0; i < p.entry_count; i++) {
         bool map = index > 0 && random_bool(rng);
@@ -425,7 +533,28 @@ static const char *light_difference(const Light *a, const Light *b) {
 
 static const char *warp_difference(const Warp *a, const Warp *b) {
     COMPARE(WarpType, type)
-    return transform_difference(&a->transform, &b->transform);
+    switch (a->type) {
+    case WARP_TRANSFORM:
+        return transform_difference(&a->transform, &b->transform);
+    case WARP_TURBULENCE:
+        TURBULENCE_MEMBERS(COMPARE, turbulence)
+        break;
+    case WARP_REPEAT:
+        REPEAT_MEMBERS(COMPARE)
+        break;
+    case WARP_BLACK_HOLE:
+        BLACK_HOLE_MEMBERS(COMPARE)
+        break;
+    case WARP_CUBIC:
+        break;
+    case WARP_PLANAR:
+    case WARP_SPHERICAL:
+    case WARP_CYLINDRICAL:
+    case WARP_TOROIDAL:
+        MAPPING_MEMBERS(COMPARE)
+        break;
+    }
+    return NULL;
 }
 
 static const char *pigment_difference(const Pigment *a, const Pigment *b) {

@@ -183,6 +183,42 @@ static void test_layout(void **state) {
     arena_destroy(arena);
 }
 
+// A pigment shows what was set and no more; a warp the fields of its type.
+static void test_pattern_layout(void **state) {
+    (void)state;
+    Arena *arena = arena_create();
+    Scene *scene = small_scene(arena, 1);
+    Pigment *pigment = &scene->pigments[0];
+    MapEntry entry = {.color = {1, 1, 1, 0, 0}, .pigment = NO_INDEX};
+    Warp warps[2] = {warp_default(WARP_CUBIC), warp_default(WARP_BLACK_HOLE)};
+    warps[1].black_hole.radius = 3;
+    pigment->pattern.type = PATTERN_SPIRAL1;
+    pigment->pattern.arms = 5;
+    pigment->pattern.has_turbulence = true;
+    pigment->pattern.turbulence.amount = vec3(1, 2, 3);
+    pigment->pattern.turbulence.octaves = 4;
+    pigment->pattern.warps = warps;
+    pigment->pattern.warp_count = 2;
+    pigment->color = (Color){0, 0, 0, 0, 0};
+    pigment->entries = &entry;
+    pigment->entry_count = 1;
+    scene_collect_requires(scene, arena);
+    scene_write(scene, json_path, &(SceneWriteOptions){false});
+    char *text = get(arena, json_path), *to = text;
+    for (const char *from = text; *from; from++) // how the lines are broken is test_layout's
+        if (*from != ' ' && *from != '\n')
+            *to++ = *from;
+    *to = '\0';
+    assert_non_null(strstr(text, "\"pattern_warp\",\"perspective\",\"spiral1\",\"turbulence\","
+                                 "\"warp_black_hole\",\"warp_cubic\"]"));
+    assert_non_null(strstr(
+        text,
+        "\"pigments\":[{\"type\":\"spiral1\",\"arms\":5,\"map\":[{\"value\":0,\"color\":[1,1,1]}"
+        "],\"warps\":[{\"type\":\"cubic\"},{\"type\":\"black_hole\",\"center\":[0,0,0],"
+        "\"radius\":3}],\"turbulence\":{\"amount\":[1,2,3],\"octaves\":4}}]"));
+    arena_destroy(arena);
+}
+
 // Above 10,000 patches the points leave the text, and equal neighbours are one entry.
 static void test_many_patches(void **state) {
     (void)state;
@@ -243,6 +279,9 @@ static void test_unwritable(void **state) {
 
 #define HEAD "{\"format\": \"qipov-scene\", \"version\": 1, "
 #define PIGMENTS "\"pigments\": [{\"color\": [1, 0, 0]}], "
+#define WARP(more)                                                                                 \
+    HEAD "\"pigments\": [{\"type\": \"bozo\", \"map\": [{\"value\": 0}], \"warps\": [{" more "}]}" \
+         "]}"
 #define NET                                                                                        \
     "[[[0,0,0],[1,0,0],[2,0,0],[3,0,0]], [[0,1,0],[1,1,0],[2,1,0],[3,1,0]],"                       \
     " [[0,2,0],[1,2,0],[2,2,0],[3,2,0]], [[0,3,0],[1,3,0],[2,3,0],[3,3,0]]]"
@@ -310,6 +349,38 @@ static const struct {
      "pigments[0].map[0].pigment: pigment 0 is part of itself"},
     {HEAD "\"pigments\": [{\"type\": \"checker\", \"map\": [{\"value\": 0, \"pigment\": 1}]}]}",
      "pigments[0].map[0].pigment: 1, but there is 1 pigment"},
+    {HEAD "\"pigments\": [{\"type\": \"hexagon\", \"map\": [{\"value\": 0}, {\"value\": 1}]}]}",
+     "pigments[0].map: 2 entries, but the pattern has 3 values"},
+    {HEAD "\"pigments\": [{\"type\": \"julia\"}]}", "pigments[0].type: unknown word 'julia'"},
+    {HEAD "\"pigments\": [{\"noise_generator\": 4}]}",
+     "pigments[0].noise_generator: 4 is not in the range 0 to 3"},
+    {HEAD "\"pigments\": [{\"turbulence\": {\"octaves\": 3}}]}",
+     "pigments[0].turbulence: 'amount' is missing"},
+    {HEAD "\"pigments\": [{\"turbulence\": {\"amount\": [1, 1, 1], \"octaves\": 11}}]}",
+     "pigments[0].turbulence.octaves: 11 is not in the range 1 to 10"},
+    {HEAD "\"pigments\": [{\"type\": \"brick\", \"brick_size\": [8, 0, 4], "
+          "\"map\": [{\"value\": 0}, {\"value\": 1}]}]}",
+     "pigments[0].brick_size: 0 has no reciprocal"},
+    {HEAD "\"pigments\": [{\"crackle\": {\"metric\": 1e61}}]}",
+     "pigments[0].crackle.metric: 1e+61 is out of range"},
+    {WARP("\"type\": \"shear\""), "pigments[0].warps[0].type: unknown word 'shear'"},
+    {WARP("\"type\": \"cubic\", \"radius\": 1"),
+     "pigments[0].warps[0]: 'radius' does not go with this type"},
+    {WARP("\"radius\": 1"), "pigments[0].warps[0]: 'radius' does not go with this type"},
+    {WARP("\"type\": \"black_hole\", \"center\": [0, 0, 0]"),
+     "pigments[0].warps[0]: 'radius' is missing"},
+    {WARP("\"type\": \"black_hole\", \"center\": [0, 0, 0], \"radius\": -1"),
+     "pigments[0].warps[0].radius: -1 is negative"},
+    {WARP("\"type\": \"turbulence\", \"amount\": [1, 1, 1], \"octaves\": 0"),
+     "pigments[0].warps[0].octaves: 0 is not in the range 1 to 10"},
+    {WARP("\"type\": \"repeat\", \"axis\": 3, \"width\": 1"),
+     "pigments[0].warps[0].axis: 3 is not in the range 0 to 2"},
+    {WARP("\"type\": \"repeat\", \"axis\": 0, \"width\": 0"),
+     "pigments[0].warps[0].width: 0 is not positive"},
+    {WARP("\"type\": \"repeat\", \"axis\": 0, \"width\": 1, \"flip\": [1, 0, 1]"),
+     "pigments[0].warps[0].flip: 0 is neither 1 nor -1"},
+    {WARP("\"type\": \"planar\", \"orientation\": [0, 2, 0]"),
+     "pigments[0].warps[0].orientation: its length is 2 instead of 1"},
     {HEAD PIGMENTS "\"textures\": [{}]}", "textures[0]: it has no layers"},
     {HEAD PIGMENTS
      "\"textures\": [{\"layers\": [{\"pigment\": 0, \"finish\": {\"roughness\": 0}}]}]}",
@@ -562,10 +633,11 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_round_trip_text), cmocka_unit_test(test_round_trip_binary),
         cmocka_unit_test(test_comparison_sees), cmocka_unit_test(test_numbers),
-        cmocka_unit_test(test_layout),          cmocka_unit_test(test_many_patches),
-        cmocka_unit_test(test_deep_unions),     cmocka_unit_test(test_unwritable),
-        cmocka_unit_test(test_refused),         cmocka_unit_test(test_trees),
-        cmocka_unit_test(test_paths_after_run), cmocka_unit_test(test_hostile),
+        cmocka_unit_test(test_layout),          cmocka_unit_test(test_pattern_layout),
+        cmocka_unit_test(test_many_patches),    cmocka_unit_test(test_deep_unions),
+        cmocka_unit_test(test_unwritable),      cmocka_unit_test(test_refused),
+        cmocka_unit_test(test_trees),           cmocka_unit_test(test_paths_after_run),
+        cmocka_unit_test(test_hostile),
     };
     return cmocka_run_group_tests_name("scene_json", tests, set_up, tear_down);
 }

@@ -47,8 +47,54 @@ Finish finish_default(void) {
 
 Interior interior_default(void) { return (Interior){.ior = 1.0f}; }
 
+Turbulence turbulence_default(void) {
+    return (Turbulence){.octaves = 6, .lambda = 2.0f, .omega = 0.5f};
+}
+
 Pattern pattern_default(void) {
-    return (Pattern){.type = PATTERN_PLAIN, .wave = WAVE_RAMP, .frequency = 1, .exponent = 1};
+    return (Pattern){
+        .type = PATTERN_PLAIN,
+        .wave = WAVE_RAMP,
+        .frequency = 1,
+        .exponent = 1,
+        .turbulence = turbulence_default(),
+        .agate_turb = 1.0f,
+        .brick_size = {8, 3, 4.5},
+        .mortar = 0.5f,
+        .quilted = {1.0f, 1.0f},
+        .crackle = {.form = {-1, 1, 0}, .metric = 2},
+    };
+}
+
+Warp warp_default(WarpType type) {
+    Warp warp;
+    memset(&warp, 0, sizeof warp);
+    warp.type = type;
+    switch (type) {
+    case WARP_TRANSFORM:
+        warp.transform = transform_identity();
+        break;
+    case WARP_TURBULENCE:
+        warp.turbulence = turbulence_default();
+        break;
+    case WARP_REPEAT:
+        warp.repeat.flip = vec3(1, 1, 1);
+        break;
+    case WARP_BLACK_HOLE:
+        warp.black_hole.strength = 1;
+        warp.black_hole.falloff = 2;
+        break;
+    case WARP_CUBIC:
+        break;
+    case WARP_PLANAR:
+    case WARP_SPHERICAL:
+    case WARP_CYLINDRICAL:
+    case WARP_TOROIDAL:
+        warp.mapping.orientation = vec3(0, 0, 1);
+        warp.mapping.major_radius = 1;
+        break;
+    }
+    return warp;
 }
 
 static PatchShape patch_default(void) {
@@ -73,34 +119,48 @@ Object object_default(ObjectType type) {
 
 // ---- requires -------------------------------------------------------------------------------
 
-// ORDER feature: sorted by byte, so that bits in order give a sorted list.
+// ORDER feature: sorted by byte, so that features in order give a sorted list.
 #define FEATURES(X)                                                                                \
+    X(agate)                                                                                       \
     X(bezier_patch)                                                                                \
     X(bicubic_patch)                                                                               \
     X(box)                                                                                         \
+    X(boxed)                                                                                       \
+    X(bozo)                                                                                        \
+    X(brick)                                                                                       \
     X(brilliance)                                                                                  \
     X(caustics)                                                                                    \
+    X(cells)                                                                                       \
     X(checker)                                                                                     \
     X(cone)                                                                                        \
     X(conserve_energy)                                                                             \
+    X(crackle)                                                                                     \
     X(crand)                                                                                       \
+    X(cubic)                                                                                       \
     X(cylinder)                                                                                    \
+    X(cylindrical)                                                                                 \
+    X(dents)                                                                                       \
     X(diffuse_back)                                                                                \
     X(disc)                                                                                        \
     X(double_illuminate)                                                                           \
     X(gradient)                                                                                    \
+    X(granite)                                                                                     \
+    X(hexagon)                                                                                     \
     X(hollow)                                                                                      \
     X(interior_fade)                                                                               \
     X(interior_texture)                                                                            \
     X(inverse)                                                                                     \
     X(irid)                                                                                        \
     X(layered_texture)                                                                             \
+    X(leopard)                                                                                     \
     X(light_fade)                                                                                  \
+    X(marble)                                                                                      \
     X(merge)                                                                                       \
     X(metallic)                                                                                    \
     X(no_image)                                                                                    \
     X(no_reflection)                                                                               \
     X(no_shadow)                                                                                   \
+    X(onion)                                                                                       \
     X(orthographic)                                                                                \
     X(parallel_light)                                                                              \
     X(pattern_warp)                                                                                \
@@ -108,20 +168,41 @@ Object object_default(ObjectType type) {
     X(perspective)                                                                                 \
     X(phong)                                                                                       \
     X(pigment_map)                                                                                 \
+    X(planar)                                                                                      \
     X(plane)                                                                                       \
     X(point_light)                                                                                 \
+    X(quilted)                                                                                     \
+    X(radial)                                                                                      \
     X(reflection)                                                                                  \
     X(reflection_fresnel)                                                                          \
     X(refraction)                                                                                  \
+    X(ripples)                                                                                     \
     X(shadowless_light)                                                                            \
     X(sky_sphere)                                                                                  \
     X(specular)                                                                                    \
     X(sphere)                                                                                      \
+    X(spherical)                                                                                   \
+    X(spiral1)                                                                                     \
+    X(spiral2)                                                                                     \
+    X(square)                                                                                      \
     X(torus)                                                                                       \
     X(transparency)                                                                                \
     X(triangle)                                                                                    \
+    X(triangular)                                                                                  \
+    X(turbulence)                                                                                  \
     X(union)                                                                                       \
-    X(uv_mapping)
+    X(uv_mapping)                                                                                  \
+    X(warp_black_hole)                                                                             \
+    X(warp_cubic)                                                                                  \
+    X(warp_cylindrical)                                                                            \
+    X(warp_planar)                                                                                 \
+    X(warp_repeat)                                                                                 \
+    X(warp_spherical)                                                                              \
+    X(warp_toroidal)                                                                               \
+    X(warp_turbulence)                                                                             \
+    X(waves)                                                                                       \
+    X(wood)                                                                                        \
+    X(wrinkles)
 
 typedef enum {
 #define X(word) FEATURE_##word,
@@ -129,7 +210,6 @@ typedef enum {
 #undef X
         FEATURE_COUNT
 } Feature;
-_Static_assert(FEATURE_COUNT <= 64, "one bit of a uint64_t each");
 
 static const char *const FEATURE_NAMES[] = {
 #define X(word) #word,
@@ -137,11 +217,26 @@ static const char *const FEATURE_NAMES[] = {
 #undef X
 };
 
-typedef uint64_t FeatureSet;
+typedef struct {
+    bool has[FEATURE_COUNT];
+} FeatureSet;
 
-static void need(FeatureSet *set, Feature feature, bool needed) {
-    *set |= (FeatureSet)needed << feature;
-}
+static void need(FeatureSet *set, Feature feature, bool needed) { set->has[feature] |= needed; }
+
+// ORDER pattern_type; a plain colour needs nothing.
+static const Feature PATTERN_FEATURES[PATTERN_MODELLED] = {
+    FEATURE_COUNT,       FEATURE_checker,   FEATURE_gradient, FEATURE_agate,   FEATURE_boxed,
+    FEATURE_bozo,        FEATURE_brick,     FEATURE_cells,    FEATURE_crackle, FEATURE_cubic,
+    FEATURE_cylindrical, FEATURE_dents,     FEATURE_granite,  FEATURE_hexagon, FEATURE_leopard,
+    FEATURE_marble,      FEATURE_onion,     FEATURE_planar,   FEATURE_quilted, FEATURE_radial,
+    FEATURE_ripples,     FEATURE_spherical, FEATURE_spiral1,  FEATURE_spiral2, FEATURE_square,
+    FEATURE_triangular,  FEATURE_waves,     FEATURE_wood,     FEATURE_wrinkles};
+
+// ORDER warp_type; transforms count as pattern_warp only.
+static const Feature WARP_FEATURES[] = {
+    FEATURE_pattern_warp,    FEATURE_warp_turbulence,  FEATURE_warp_repeat,
+    FEATURE_warp_black_hole, FEATURE_warp_cubic,       FEATURE_warp_planar,
+    FEATURE_warp_spherical,  FEATURE_warp_cylindrical, FEATURE_warp_toroidal};
 
 static bool is_black(Rgb c) { return c.r == 0 && c.g == 0 && c.b == 0; }
 static bool is_clear(Color c) { return c.filter != 0 || c.transmit != 0; }
@@ -160,10 +255,13 @@ static void collect_pigments(const Scene *scene, FeatureSet *set) {
     for (uint32_t i = 0; i < scene->pigment_count; i++) {
         const Pigment *pigment = &scene->pigments[i];
         bool plain = pigment->pattern.type == PATTERN_PLAIN;
-        need(set, FEATURE_checker, pigment->pattern.type == PATTERN_CHECKER);
-        need(set, FEATURE_gradient, pigment->pattern.type == PATTERN_GRADIENT);
+        if (!plain)
+            need(set, PATTERN_FEATURES[pigment->pattern.type], true);
         need(set, FEATURE_pattern_wave, !plain && pigment->pattern.wave != WAVE_RAMP);
         need(set, FEATURE_pattern_warp, pigment->pattern.warp_count > 0);
+        for (uint32_t j = 0; j < pigment->pattern.warp_count; j++)
+            need(set, WARP_FEATURES[pigment->pattern.warps[j].type], true);
+        need(set, FEATURE_turbulence, pigment->pattern.has_turbulence);
         need(set, FEATURE_uv_mapping, pigment->uv_mapping);
         need(set, FEATURE_transparency, plain && is_clear(pigment->color));
         for (uint32_t j = 0; j < pigment->entry_count; j++) {
@@ -251,7 +349,7 @@ static void collect_objects(const Scene *scene, FeatureSet *set) {
 }
 
 void scene_collect_requires(Scene *scene, Arena *arena) {
-    FeatureSet set = 0;
+    FeatureSet set = {{false}};
     need(&set, FEATURE_perspective, scene->camera.type == CAMERA_PERSPECTIVE);
     need(&set, FEATURE_orthographic, scene->camera.type == CAMERA_ORTHOGRAPHIC);
     need(&set, FEATURE_sky_sphere, scene->has_sky_sphere);
@@ -263,7 +361,7 @@ void scene_collect_requires(Scene *scene, Arena *arena) {
     scene->requires = ARENA_ARRAY(arena, const char *, FEATURE_COUNT);
     scene->requires_count = 0;
     for (int i = 0; i < FEATURE_COUNT; i++)
-        if (set >> i & 1)
+        if (set.has[i])
     scene->requires[scene->requires_count++] = FEATURE_NAMES[i];
 }
 

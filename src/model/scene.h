@@ -364,7 +364,9 @@ Settings settings_default(void);
 Camera camera_default(void);
 Finish finish_default(void);
 Interior interior_default(void);
+Turbulence turbulence_default(void); // without an amount
 Pattern pattern_default(void);
+Warp warp_default(WarpType type);
 Object object_default(ObjectType type);
 
 // Checks what the renderer relies on: indices in range, trees without cycles, degrees, finite

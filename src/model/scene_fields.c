@@ -61,7 +61,7 @@ static const Field SETTINGS_FIELDS[] = {
     END,
 };
 static void default_settings(void *out) { *(Settings *)out = settings_default(); }
-static const Record SETTINGS = {NULL, SETTINGS_FIELDS, sizeof(Settings), default_settings};
+static const Record SETTINGS = {NULL, SETTINGS_FIELDS, sizeof(Settings), default_settings, NULL};
 
 // ORDER camera_type
 static const char *const CAMERA_TYPE_NAMES[] = {"perspective", "orthographic", NULL};
@@ -76,7 +76,7 @@ static const Field CAMERA_FIELDS[] = {
     END,
 };
 static void default_camera(void *out) { *(Camera *)out = camera_default(); }
-static const Record CAMERA = {NULL, CAMERA_FIELDS, sizeof(Camera), default_camera};
+static const Record CAMERA = {NULL, CAMERA_FIELDS, sizeof(Camera), default_camera, NULL};
 
 // ORDER light_type
 static const char *const LIGHT_TYPE_NAMES[] = {"point", "parallel", NULL};
@@ -100,17 +100,64 @@ static const Field LIGHT_FIELDS[] = {
     END,
 };
 static void default_light(void *out) { *(Light *)out = (Light){.point_at = {0, 0, 1}}; }
-static const Record LIGHT = {NULL, LIGHT_FIELDS, sizeof(Light), default_light};
+static const Record LIGHT = {NULL, LIGHT_FIELDS, sizeof(Light), default_light, NULL};
 
 // ---- textures -------------------------------------------------------------------------------
 
 // ORDER pattern_type
-static const char *const PATTERN_TYPE_NAMES[] = {"plain", "checker", "gradient", NULL};
+static const char *const PATTERN_TYPE_NAMES[] = {
+    "plain",   "checker",    "gradient",    "agate",  "boxed",    "bozo",      "brick",   "cells",
+    "crackle", "cubic",      "cylindrical", "dents",  "granite",  "hexagon",   "leopard", "marble",
+    "onion",   "planar",     "quilted",     "radial", "ripples",  "spherical", "spiral1", "spiral2",
+    "square",  "triangular", "waves",       "wood",   "wrinkles", NULL,
+};
+_Static_assert(sizeof PATTERN_TYPE_NAMES / sizeof *PATTERN_TYPE_NAMES == PATTERN_MODELLED + 1,
+               "a name for each pattern");
 // ORDER wave_type
 static const char *const WAVE_TYPE_NAMES[] = {"ramp",  "triangle", "sine", "scallop",
                                               "cubic", "poly",     NULL};
 // ORDER warp_type
-static const char *const WARP_TYPE_NAMES[] = {"transform", NULL};
+static const char *const WARP_TYPE_NAMES[] = {
+    "transform", "turbulence", "repeat",      "black_hole", "cubic",
+    "planar",    "spherical",  "cylindrical", "toroidal",   NULL,
+};
+
+#define TURBULENCE(Struct, at, limit)                                                              \
+    {.name = "amount",                                                                             \
+     .type = FIELD_DOUBLES,                                                                        \
+     .presence = FIELD_REQUIRED,                                                                   \
+     AT(Struct, at amount),                                                                        \
+     .columns = 3,                                                                                 \
+     .kinds = limit},                                                                              \
+        {.name = "octaves", .type = FIELD_INT, AT(Struct, at octaves), .kinds = limit},            \
+        {.name = "lambda", .type = FIELD_FLOAT, AT(Struct, at lambda), .kinds = limit}, {          \
+        .name = "omega", .type = FIELD_FLOAT, AT(Struct, at omega), .kinds = limit                 \
+    }
+
+static const Field TURBULENCE_FIELDS[] = {
+    TURBULENCE(Turbulence, , 0),
+    END,
+};
+static void default_turbulence(void *out) { *(Turbulence *)out = turbulence_default(); }
+static const Record TURBULENCE = {NULL, TURBULENCE_FIELDS, sizeof(Turbulence), default_turbulence,
+                                  NULL};
+
+static const Field CRACKLE_FIELDS[] = {
+    VEC3(CrackleShape, form, "form"),
+    DOUBLE(CrackleShape, metric, "metric"),
+    DOUBLE(CrackleShape, offset, "offset"),
+    BOOL(CrackleShape, solid, "solid"),
+    END,
+};
+static void default_crackle(void *out) { *(CrackleShape *)out = pattern_default().crackle; }
+static const Record CRACKLE = {NULL, CRACKLE_FIELDS, sizeof(CrackleShape), default_crackle, NULL};
+
+// Fields of a warp: `kinds` says which ones have it.
+#define OF(type) (1u << WARP_##type)
+#define WARP_VEC3(limit, member, text)                                                             \
+    { .name = text, .type = FIELD_DOUBLES, AT(Warp, member), .columns = 3, .kinds = limit }
+#define WARP_DOUBLE(limit, member, text)                                                           \
+    { .name = text, .type = FIELD_DOUBLE, AT(Warp, member), .kinds = limit }
 
 static const Field WARP_FIELDS[] = {
     {.name = "type",
@@ -118,11 +165,52 @@ static const Field WARP_FIELDS[] = {
      .presence = FIELD_ALWAYS,
      AT(Warp, type),
      .names = WARP_TYPE_NAMES},
-    {.name = "transform", .type = FIELD_TRANSFORM, AT(Warp, transform)},
+    {.name = "transform", .type = FIELD_TRANSFORM, AT(Warp, transform), .kinds = OF(TRANSFORM)},
+    TURBULENCE(Warp, turbulence., OF(TURBULENCE)),
+    {.name = "axis",
+     .type = FIELD_INT,
+     .presence = FIELD_REQUIRED,
+     AT(Warp, repeat.axis),
+     .kinds = OF(REPEAT)},
+    {.name = "width",
+     .type = FIELD_FLOAT,
+     .presence = FIELD_REQUIRED,
+     AT(Warp, repeat.width),
+     .kinds = OF(REPEAT)},
+    WARP_VEC3(OF(REPEAT), repeat.offset, "offset"),
+    WARP_VEC3(OF(REPEAT), repeat.flip, "flip"),
+    {.name = "center",
+     .type = FIELD_DOUBLES,
+     .presence = FIELD_REQUIRED,
+     AT(Warp, black_hole.center),
+     .columns = 3,
+     .kinds = OF(BLACK_HOLE)},
+    {.name = "radius",
+     .type = FIELD_DOUBLE,
+     .presence = FIELD_REQUIRED,
+     AT(Warp, black_hole.radius),
+     .kinds = OF(BLACK_HOLE)},
+    WARP_DOUBLE(OF(BLACK_HOLE), black_hole.strength, "strength"),
+    WARP_DOUBLE(OF(BLACK_HOLE), black_hole.falloff, "falloff"),
+    {.name = "inverse", .type = FIELD_BOOL, AT(Warp, black_hole.inverse), .kinds = OF(BLACK_HOLE)},
+    {.name = "repeat_size",
+     .type = FIELD_DOUBLES,
+     .presence = FIELD_FLAGGED,
+     AT(Warp, black_hole.repeat_size),
+     .link = offsetof(Warp, black_hole.repeat),
+     .columns = 3,
+     .kinds = OF(BLACK_HOLE)},
+    WARP_VEC3(OF(BLACK_HOLE), black_hole.uncertainty, "uncertainty"),
+    WARP_VEC3(OF(PLANAR) | OF(SPHERICAL) | OF(CYLINDRICAL) | OF(TOROIDAL), mapping.orientation,
+              "orientation"),
+    WARP_DOUBLE(OF(PLANAR), mapping.distance, "distance"),
+    WARP_DOUBLE(OF(SPHERICAL) | OF(CYLINDRICAL) | OF(TOROIDAL), mapping.dist_exp, "dist_exp"),
+    WARP_DOUBLE(OF(TOROIDAL), mapping.major_radius, "major_radius"),
     END,
 };
-static void default_warp(void *out) { *(Warp *)out = (Warp){.transform = transform_identity()}; }
-static const Record WARP = {NULL, WARP_FIELDS, sizeof(Warp), default_warp};
+static void default_warp(void *out) { *(Warp *)out = warp_default(WARP_TRANSFORM); }
+static void default_warp_kind(void *out) { *(Warp *)out = warp_default(((Warp *)out)->type); }
+static const Record WARP = {NULL, WARP_FIELDS, sizeof(Warp), default_warp, default_warp_kind};
 
 static const Field MAP_ENTRY_FIELDS[] = {
     {.name = "value", .type = FIELD_FLOAT, .presence = FIELD_REQUIRED, AT(MapEntry, value)},
@@ -131,7 +219,7 @@ static const Field MAP_ENTRY_FIELDS[] = {
     END,
 };
 static void default_map_entry(void *out) { *(MapEntry *)out = (MapEntry){.pigment = NO_INDEX}; }
-static const Record MAP_ENTRY = {NULL, MAP_ENTRY_FIELDS, sizeof(MapEntry), default_map_entry};
+static const Record MAP_ENTRY = {NULL, MAP_ENTRY_FIELDS, sizeof(MapEntry), default_map_entry, NULL};
 
 static const Field PIGMENT_FIELDS[] = {
     {.name = "type",
@@ -140,13 +228,26 @@ static const Field PIGMENT_FIELDS[] = {
      AT(Pigment, pattern.type),
      .names = PATTERN_TYPE_NAMES},
     VEC3(Pigment, pattern.gradient, "gradient"),
+    FLOAT(Pigment, pattern.agate_turb, "agate_turb"),
+    VEC3(Pigment, pattern.brick_size, "brick_size"),
+    FLOAT(Pigment, pattern.mortar, "mortar"),
+    {.name = "crackle", .type = FIELD_RECORD, AT(Pigment, pattern.crackle), .record = &CRACKLE},
+    {.name = "quilted", .type = FIELD_FLOATS, AT(Pigment, pattern.quilted), .columns = 2},
+    INT(Pigment, pattern.arms, "arms"),
     ENUM(Pigment, pattern.wave, "wave", WAVE_TYPE_NAMES),
     FLOAT(Pigment, pattern.frequency, "frequency"),
     FLOAT(Pigment, pattern.phase, "phase"),
     FLOAT(Pigment, pattern.exponent, "exponent"),
+    INT(Pigment, pattern.noise_generator, "noise_generator"),
     COLOR(Pigment, color, "color"),
     RECORDS(Pigment, entries, entry_count, "map", &MAP_ENTRY),
     RECORDS(Pigment, pattern.warps, pattern.warp_count, "warps", &WARP),
+    {.name = "turbulence",
+     .type = FIELD_RECORD,
+     .presence = FIELD_FLAGGED,
+     AT(Pigment, pattern.turbulence),
+     .link = offsetof(Pigment, pattern.has_turbulence),
+     .record = &TURBULENCE},
     BOOL(Pigment, uv_mapping, "uv_mapping"),
     {.name = "quick_color",
      .type = FIELD_COLOR,
@@ -158,7 +259,7 @@ static const Field PIGMENT_FIELDS[] = {
 static void default_pigment(void *out) {
     *(Pigment *)out = (Pigment){.pattern = pattern_default()};
 }
-static const Record PIGMENT = {NULL, PIGMENT_FIELDS, sizeof(Pigment), default_pigment};
+static const Record PIGMENT = {NULL, PIGMENT_FIELDS, sizeof(Pigment), default_pigment, NULL};
 
 static const Field FINISH_FIELDS[] = {
     RGB(Finish, ambient, "ambient"),
@@ -185,7 +286,7 @@ static const Field FINISH_FIELDS[] = {
     END,
 };
 static void default_finish(void *out) { *(Finish *)out = finish_default(); }
-static const Record FINISH = {NULL, FINISH_FIELDS, sizeof(Finish), default_finish};
+static const Record FINISH = {NULL, FINISH_FIELDS, sizeof(Finish), default_finish, NULL};
 
 static const Field LAYER_FIELDS[] = {
     {.name = "pigment", .type = FIELD_INDEX, .presence = FIELD_REQUIRED, AT(Layer, pigment)},
@@ -195,7 +296,7 @@ static const Field LAYER_FIELDS[] = {
 static void default_layer(void *out) {
     *(Layer *)out = (Layer){.pigment = NO_INDEX, .finish = finish_default()};
 }
-static const Record LAYER = {NULL, LAYER_FIELDS, sizeof(Layer), default_layer};
+static const Record LAYER = {NULL, LAYER_FIELDS, sizeof(Layer), default_layer, NULL};
 
 static const Field TEXTURE_FIELDS[] = {
     RECORDS(Texture, layers, layer_count, "layers", &LAYER),
@@ -203,7 +304,7 @@ static const Field TEXTURE_FIELDS[] = {
     END,
 };
 static void default_texture(void *out) { memset(out, 0, sizeof(Texture)); }
-static const Record TEXTURE = {NULL, TEXTURE_FIELDS, sizeof(Texture), default_texture};
+static const Record TEXTURE = {NULL, TEXTURE_FIELDS, sizeof(Texture), default_texture, NULL};
 
 static const Field INTERIOR_FIELDS[] = {
     FLOAT(Interior, ior, "ior"),
@@ -214,7 +315,7 @@ static const Field INTERIOR_FIELDS[] = {
     END,
 };
 static void default_interior(void *out) { *(Interior *)out = interior_default(); }
-static const Record INTERIOR = {NULL, INTERIOR_FIELDS, sizeof(Interior), default_interior};
+static const Record INTERIOR = {NULL, INTERIOR_FIELDS, sizeof(Interior), default_interior, NULL};
 
 static const Field SKY_SPHERE_FIELDS[] = {
     {.name = "pigments",
@@ -228,7 +329,8 @@ static const Field SKY_SPHERE_FIELDS[] = {
 static void default_sky_sphere(void *out) {
     *(SkySphere *)out = (SkySphere){.emission = {1, 1, 1}, .transform = transform_identity()};
 }
-static const Record SKY_SPHERE = {NULL, SKY_SPHERE_FIELDS, sizeof(SkySphere), default_sky_sphere};
+static const Record SKY_SPHERE = {NULL, SKY_SPHERE_FIELDS, sizeof(SkySphere), default_sky_sphere,
+                                  NULL};
 
 // ---- objects --------------------------------------------------------------------------------
 
@@ -252,7 +354,7 @@ static const Field OBJECT_FIELDS[] = {
     BOOL(Object, uv_mapping, "uv_mapping"),
     END,
 };
-static const Record OBJECT = {NULL, OBJECT_FIELDS, sizeof(Object), NULL};
+static const Record OBJECT = {NULL, OBJECT_FIELDS, sizeof(Object), NULL, NULL};
 
 // The types with a local space have these last, so that the file shows the shape first.
 #define OBJECT_TRANSFORM                                                                           \
@@ -323,17 +425,17 @@ static const Field TRIANGLE_FIELDS[] = {
 
 // ORDER object_type
 static const Record OBJECT_RECORDS[] = {
-    {NULL, OBJECT_FIELDS, sizeof(Object), NULL}, // union
-    {NULL, OBJECT_FIELDS, sizeof(Object), NULL}, // merge
-    {&OBJECT, PATCH_FIELDS, sizeof(Object), NULL},
-    {&OBJECT, PLANE_FIELDS, sizeof(Object), NULL},
-    {&OBJECT, SPHERE_FIELDS, sizeof(Object), NULL},
-    {&OBJECT, BOX_FIELDS, sizeof(Object), NULL},
-    {&OBJECT, CONE_FIELDS, sizeof(Object), NULL}, // cylinder
-    {&OBJECT, CONE_FIELDS, sizeof(Object), NULL},
-    {&OBJECT, TORUS_FIELDS, sizeof(Object), NULL},
-    {&OBJECT, DISC_FIELDS, sizeof(Object), NULL},
-    {&OBJECT, TRIANGLE_FIELDS, sizeof(Object), NULL},
+    {NULL, OBJECT_FIELDS, sizeof(Object), NULL, NULL}, // union
+    {NULL, OBJECT_FIELDS, sizeof(Object), NULL, NULL}, // merge
+    {&OBJECT, PATCH_FIELDS, sizeof(Object), NULL, NULL},
+    {&OBJECT, PLANE_FIELDS, sizeof(Object), NULL, NULL},
+    {&OBJECT, SPHERE_FIELDS, sizeof(Object), NULL, NULL},
+    {&OBJECT, BOX_FIELDS, sizeof(Object), NULL, NULL},
+    {&OBJECT, CONE_FIELDS, sizeof(Object), NULL, NULL}, // cylinder
+    {&OBJECT, CONE_FIELDS, sizeof(Object), NULL, NULL},
+    {&OBJECT, TORUS_FIELDS, sizeof(Object), NULL, NULL},
+    {&OBJECT, DISC_FIELDS, sizeof(Object), NULL, NULL},
+    {&OBJECT, TRIANGLE_FIELDS, sizeof(Object), NULL, NULL},
 };
 
 const Record *object_record(ObjectType type) { return &OBJECT_RECORDS[type]; }
@@ -364,7 +466,7 @@ static void default_scene(void *out) {
     *scene = (Scene){.settings = settings_default(), .camera = camera_default()};
     default_sky_sphere(&scene->sky_sphere);
 }
-const Record SCENE_RECORD = {NULL, SCENE_FIELDS, sizeof(Scene), default_scene};
+const Record SCENE_RECORD = {NULL, SCENE_FIELDS, sizeof(Scene), default_scene, NULL};
 
 // ---- comparing ------------------------------------------------------------------------------
 
@@ -373,6 +475,11 @@ static bool record_equal(const Record *record, const void *a, const void *b) {
         if (!field_equal(field, field_of(a, field->offset), field_of(b, field->offset)))
             return false;
     return true;
+}
+
+bool field_belongs(const Record *table, const Field *field, const void *record) {
+    return field->kinds == 0 ||
+           (field->kinds >> *(const int *)field_of(record, table->fields[0].offset) & 1);
 }
 
 bool field_equal(const Field *field, const void *a, const void *b) {

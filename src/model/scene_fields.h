@@ -45,6 +45,7 @@ typedef struct {
     int rows, columns;
     const char *const *names; // FIELD_ENUM, ended by NULL
     const Record *record;     // FIELD_RECORD, FIELD_RECORDS
+    uint32_t kinds;           // one bit a kind of record that has the field; 0: all have it
 } Field;
 
 // A struct: its fields, ended by one without a name, and after them those of `base`.
@@ -53,6 +54,9 @@ struct Record {
     const Field *fields;
     size_t size;
     void (*set_default)(void *out); // fills the struct; NULL: the caller does
+    // A struct with a union: its first field is its kind, an enumeration. Fills all that the kind
+    // decides on, the kind being set. NULL: there is only one kind.
+    void (*set_kind_default)(void *out);
 };
 
 extern const Record SCENE_RECORD;             // all of Scene but objects, roots, requires
@@ -61,6 +65,9 @@ const Record *object_record(ObjectType type); // without type, points and childr
 // ORDER object_type; OBJECT_PATCH is "bicubic_patch", and BEZIER_PATCH_NAME for other degrees.
 extern const char *const OBJECT_TYPE_NAMES[];
 extern const char BEZIER_PATCH_NAME[];
+
+// Has the struct at `record` this field? (A union has those of its kind.)
+bool field_belongs(const Record *table, const Field *field, const void *record);
 
 // Are both the same, bit by bit, as far as the file can tell? a and b point to the members.
 bool field_equal(const Field *field, const void *a, const void *b);

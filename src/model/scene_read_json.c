@@ -260,12 +260,19 @@ void read_record(const Reader *r, const FieldPath *path, json_t *object, const R
     for (; record; record = record->base) {
         for (const Field *field = record->fields; field->name; field++) {
             json_t *value = json_object_get(object, field->name);
+            if (!field_belongs(record, field, at)) {
+                if (value)
+                    path_die(r->file, path, "'%s' does not go with this type", field->name);
+                continue;
+            }
             if (value && field->presence == FIELD_FLAGGED)
                 *(bool *)field_at(at, field->link) = true;
             if (value && !is_reference(field, value))
                 read_value(r, path, value, field, at);
             else if (!value && field->presence == FIELD_REQUIRED)
                 path_die(r->file, path, "'%s' is missing", field->name);
+            if (field == record->fields && record->set_kind_default)
+                record->set_kind_default(at);
         }
     }
 }

@@ -18,7 +18,7 @@ static const double MAX_COORDINATE = 1e60;
 // How far a direction's length may be from 1. Six written decimals give 1e-6 at most.
 static const double UNIT_TOLERANCE = 1e-6;
 
-enum { MAX_TRACE_LEVEL = 256 }; // POV-Ray's own limit
+enum { MAX_TRACE_LEVEL = 256, MAX_OCTAVES = 10 }; // POV-Ray's own limits
 
 typedef struct {
     const Scene *scene;
@@ -174,20 +174,122 @@ static void check_light(const Check *c, const FieldPath *path, const Light *ligh
 
 // ---- textures -------------------------------------------------------------------------------
 
+static void check_turbulence(const Check *c, const FieldPath *path, const Turbulence *turbulence) {
+    check_vec3(c, path, "amount", turbulence->amount);
+    check_range(c, path, "octaves", turbulence->octaves, 1, MAX_OCTAVES);
+    check_float(c, path, "lambda", turbulence->lambda);
+    check_float(c, path, "omega", turbulence->omega);
+}
+
+static void check_repeat(const Check *c, const FieldPath *path, const RepeatWarp *repeat) {
+    const FieldPath width = path_field(path, "width"), flip = path_field(path, "flip");
+    check_range(c, path, "axis", repeat->axis, 0, 2);
+    check_float(c, path, "width", repeat->width);
+    if (!(repeat->width > 0))
+        refuse(c, &width, "%g is not positive", (double)repeat->width);
+    check_vec3(c, path, "offset", repeat->offset);
+    for (int i = 0; i < 3; i++)
+        if (fabs(vec_get(repeat->flip, i)) != 1)
+            refuse(c, &flip, "%g is neither 1 nor -1", vec_get(repeat->flip, i));
+}
+
+static void check_black_hole(const Check *c, const FieldPath *path, const BlackHoleWarp *hole) {
+    check_vec3(c, path, "center", hole->center);
+    check_size(c, path, "radius", hole->radius);
+    check_numbers(c, path, "strength", &hole->strength, 1);
+    check_numbers(c, path, "falloff", &hole->falloff, 1);
+    if (hole->repeat)
+        check_vec3(c, path, "repeat_size", hole->repeat_size);
+    check_vec3(c, path, "uncertainty", hole->uncertainty);
+}
+
+static void check_mapping(const Check *c, const FieldPath *path, const MappingWarp *mapping) {
+    check_unit(c, path, "orientation", mapping->orientation);
+    check_numbers(c, path, "distance", &mapping->distance, 1);
+    check_numbers(c, path, "dist_exp", &mapping->dist_exp, 1);
+    check_numbers(c, path, "major_radius", &mapping->major_radius, 1);
+}
+
+static void check_warp(const Check *c, const FieldPath *path, const Warp *warp) {
+    check_range(c, path, "type", (int)warp->type, WARP_TRANSFORM, WARP_TOROIDAL);
+    switch (warp->type) {
+    case WARP_TRANSFORM:
+        check_transform(c, path, "transform", &warp->transform);
+        break;
+    case WARP_TURBULENCE:
+        check_turbulence(c, path, &warp->turbulence);
+        break;
+    case WARP_REPEAT:
+        check_repeat(c, path, &warp->repeat);
+        break;
+    case WARP_BLACK_HOLE:
+        check_black_hole(c, path, &warp->black_hole);
+        break;
+    case WARP_CUBIC:
+        break;
+    case WARP_PLANAR:
+    case WARP_SPHERICAL:
+    case WARP_CYLINDRICAL:
+    case WARP_TOROIDAL:
+        check_mapping(c, path, &warp->mapping);
+        break;
+    }
+}
+
+// How many entries the map of a list pattern has, one for each of its values; others: 1 at least.
+static uint32_t least_entries(PatternType type) {
+    switch (type) {
+    case PATTERN_CHECKER:
+    case PATTERN_BRICK:
+        return 2;
+    case PATTERN_HEXAGON:
+        return 3;
+    case PATTERN_SQUARE:
+        return 4;
+    case PATTERN_CUBIC:
+    case PATTERN_TRIANGULAR:
+        return 6;
+    default:
+        return 1;
+    }
+}
+
+// The members that belong to one pattern each, whether it is that pattern or not: they are few.
+static void check_pattern_shape(const Check *c, const FieldPath *path, const Pattern *pattern) {
+    const FieldPath crackle = path_field(path, "crackle");
+    check_float(c, path, "agate_turb", pattern->agate_turb);
+    check_vec3(c, path, "brick_size", pattern->brick_size);
+    check_float(c, path, "mortar", pattern->mortar);
+    check_floats(c, path, "quilted", pattern->quilted, 2);
+    check_vec3(c, &crackle, "form", pattern->crackle.form);
+    check_numbers(c, &crackle, "metric", &pattern->crackle.metric, 1);
+    check_numbers(c, &crackle, "offset", &pattern->crackle.offset, 1);
+    for (int i = 0; i < 3; i++) {
+        const FieldPath size = path_field(path, "brick_size");
+        if (pattern->type == PATTERN_BRICK && vec_get(pattern->brick_size, i) == 0)
+            refuse(c, &size, "0 has no reciprocal");
+    }
+}
+
 static void check_pattern(const Check *c, const FieldPath *path, const Pattern *pattern) {
     check_range(c, path, "type", (int)pattern->type, PATTERN_PLAIN, PATTERN_MODELLED - 1);
     check_range(c, path, "wave", (int)pattern->wave, WAVE_RAMP, WAVE_POLY);
     check_float(c, path, "frequency", pattern->frequency);
     check_float(c, path, "phase", pattern->phase);
     check_float(c, path, "exponent", pattern->exponent);
+    check_range(c, path, "noise_generator", pattern->noise_generator, 0, 3);
+    check_pattern_shape(c, path, pattern);
     if (pattern->type == PATTERN_GRADIENT)
         check_unit(c, path, "gradient", pattern->gradient);
     else
         check_vec3(c, path, "gradient", pattern->gradient);
     for (uint32_t i = 0; i < pattern->warp_count; i++) {
         const FieldPath warp = path_item(path, "warps", i);
-        check_range(c, &warp, "type", (int)pattern->warps[i].type, WARP_TRANSFORM, WARP_TRANSFORM);
-        check_transform(c, &warp, "transform", &pattern->warps[i].transform);
+        check_warp(c, &warp, &pattern->warps[i]);
+    }
+    if (pattern->has_turbulence) {
+        const FieldPath turbulence = path_field(path, "turbulence");
+        check_turbulence(c, &turbulence, &pattern->turbulence);
     }
 }
 
@@ -220,6 +322,11 @@ static void check_pigment(Check *c, const FieldPath *path, uint32_t index, int d
             check_index(c, &inner, entry->pigment, c->scene->pigment_count, "pigment");
             check_pigment(c, &inner, entry->pigment, depth + 1);
         }
+    }
+    uint32_t least = least_entries(pigment->pattern.type);
+    if (!plain && pigment->entry_count < least) {
+        const FieldPath map = path_field(path, "map");
+        refuse(c, &map, "%u entries, but the pattern has %u values", pigment->entry_count, least);
     }
     c->pigment_met[index] = 2;
 }

@@ -115,6 +115,8 @@ static void write_record(Writer *w, const Record *record, const void *at) {
     union {
         Finish finish;
         Pigment pigment;
+        Turbulence turbulence;
+        CrackleShape crackle;
         Settings settings;
         Camera camera;
         SkySphere sky_sphere;
@@ -127,6 +129,11 @@ static void write_record(Writer *w, const Record *record, const void *at) {
     } defaults; // room for any of them
     assert(record->size <= sizeof defaults);
     record->set_default(&defaults);
+    if (record->set_kind_default) {
+        size_t kind = record->fields[0].offset;
+        memcpy(field_at(&defaults, kind), field_of(at, kind), sizeof(int));
+        record->set_kind_default(&defaults);
+    }
     Comma state = {false};
     fputc('{', w->out);
     write_fields(w, &state, record, at, &defaults);
@@ -212,7 +219,7 @@ static void write_fields(Writer *w, Comma *state, const Record *record, const vo
                          const void *defaults) {
     for (; record; record = record->base) {
         for (const Field *field = record->fields; field->name; field++) {
-            if (is_written(field, at, defaults)) {
+            if (field_belongs(record, field, at) && is_written(field, at, defaults)) {
                 member(w, state, field->name);
                 write_value(w, field, at);
             }

@@ -300,16 +300,6 @@ static void keep_pools(Emitter *e) {
     KEEP(e, scene, interiors, interior_count);
 }
 
-// POV-Ray renders a scene without objects: a sky may be all that is wanted. Where there is not even
-// that, the picture would be black, and the file is not what its author thinks it is.
-static void no_objects(const Scene *scene, const char *file) {
-    const Color *b = &scene->settings.background;
-    if (!scene->has_sky_sphere && b->r == 0 && b->g == 0 && b->b == 0)
-        die("'%s' shows no objects, no sky_sphere and no background: there is nothing to render",
-            file);
-    warn("'%s' shows no objects", file);
-}
-
 Scene *emit_scene(Converter *cv) {
     Emitter *e = ARENA_NEW(cv->arena, Emitter);
     e->cv = cv;
@@ -321,7 +311,7 @@ Scene *emit_scene(Converter *cv) {
     emit_sky(e);
     keep_pools(e);
     if (e->scene->root_count == 0)
-        no_objects(e->scene, cv->options->input);
+        warn("'%s' shows no objects", cv->options->input);
     scene_collect_requires(e->scene, cv->arena);
     scene_validate(e->scene, cv->options->input);
     return e->scene;

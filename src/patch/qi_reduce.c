@@ -56,56 +56,54 @@ typedef struct {
 
 // ---- Pieces ----
 
-// Row k of w: weights of the control points in the k-th of the part [a,b], the coefficients of
-// ((1-a) + a x)^(d-k) ((1-b) + b x)^k. All are >= 0, so relative errors stay relative.
-static inline void restriction(double *w, int d, double a, double b) {
-    int n = d + 1;
-    double at_a[LINE] = {1.0};
+// Weights of the control points in the control points of the part [a,b]: those of the k-th are the
+// coefficients of ((1-a) + a x)^(d-k) ((1-b) + b x)^k. All are >= 0, so relative errors stay
+// relative. Weight i of point k is w[k * step_k + i * step_i].
+static inline void restriction(double *w, int step_k, int step_i, int d, double a, double b) {
+    double at_a[LINE], row[LINE];
+    at_a[0] = 1.0;
     for (int k = d; k >= 0; k--) {
-        double *row = w + k * n;
-        for (int i = 0; i <= d; i++)
-            row[i] = i <= d - k ? at_a[i] : 0.0;
-        for (int m = 0; m < k; m++) {
-            for (int i = d - k + m + 1; i > 0; i--)
+        for (int i = 0; i <= d - k; i++)
+            row[i] = at_a[i];
+        for (int n = d - k + 1; n <= d; n++) { // n: degree reached
+            row[n] = row[n - 1] * b;
+            for (int i = n - 1; i > 0; i--)
                 row[i] = row[i] * (1.0 - b) + row[i - 1] * b;
             row[0] *= 1.0 - b;
         }
+        for (int i = 0; i <= d; i++)
+            w[k * step_k + i * step_i] = row[i];
         if (k > 0) {
-            for (int i = d - k + 1; i > 0; i--)
+            int n = d - k + 1;
+            at_a[n] = at_a[n - 1] * a;
+            for (int i = n - 1; i > 0; i--)
                 at_a[i] = at_a[i] * (1.0 - a) + at_a[i - 1] * a;
             at_a[0] *= 1.0 - a;
         }
     }
 }
 
+// out = wu p wv; the inner loops run along rows, so that they vectorise.
 static inline void restrict_axis(const double *p, const double *wu, const double *wv, int du,
-                                 int dv, double *out) {
+                                 int dv, double *restrict out) {
     double half[POINTS];
     int nu = du + 1, nv = dv + 1;
     for (int k = 0; k < nu; k++) {
-        for (int j = 0; j < nv; j++)
-            half[k * nv + j] = 0.0;
-        for (int i = 0; i < nu; i++)
-            for (int j = 0; j < nv; j++)
-                half[k * nv + j] += wu[k * nu + i] * p[i * nv + j];
+        for (int j = 0; j < nv; j++) {
+            double sum = wu[k * nu] * p[j];
+            for (int i = 1; i < nu; i++)
+                sum += wu[k * nu + i] * p[i * nv + j];
+            half[k * nv + j] = sum;
+        }
     }
     for (int k = 0; k < nu; k++) {
         for (int m = 0; m < nv; m++) {
-            double sum = 0.0;
-            for (int j = 0; j < nv; j++)
-                sum += half[k * nv + j] * wv[m * nv + j];
+            double sum = half[k * nv] * wv[m];
+            for (int j = 1; j < nv; j++)
+                sum += half[k * nv + j] * wv[j * nv + m];
             out[k * nv + m] = sum;
         }
     }
-}
-
-static inline void restrict_net(const QiNet *whole, int du, int dv, BezierRect r, QiNet *out) {
-    double wu[LINE * LINE], wv[LINE * LINE];
-    restriction(wu, du, r.u0, r.u1);
-    restriction(wv, dv, r.v0, r.v1);
-    restrict_axis(whole->x, wu, wv, du, dv, out->x);
-    restrict_axis(whole->y, wu, wv, du, dv, out->y);
-    restrict_axis(whole->z, wu, wv, du, dv, out->z);
 }
 
 static inline Span span_of(const double *p, int count) {
@@ -136,69 +134,89 @@ static inline double trend_v(const double *p, int du, int dv) {
 
 static inline double larger(double a, double b) { return a > b ? a : b; }
 
-// Largest absolute second differences, and slopes of the control points, along both directions.
-static inline void differences(const double *r, int du, int dv, double second[2], double slope[2]) {
-    int row = dv + 1;
-    double su = 0.0, sv = 0.0, mu = 0.0, mv = 0.0;
-    for (int i = 0; i < du; i++) {
-        for (int j = 0; j <= dv; j++) {
-            const double *c = r + i * row + j;
-            mu = larger(mu, fabs(c[row] - c[0]));
-            if (i > 0)
-                su = larger(su, fabs((c[row] - c[0]) - (c[0] - c[-row])));
-        }
-    }
-    for (int i = 0; i <= du; i++) {
-        for (int j = 0; j < dv; j++) {
-            const double *c = r + i * row + j;
-            mv = larger(mv, fabs(c[1] - c[0]));
-            if (j > 0)
-                sv = larger(sv, fabs((c[1] - c[0]) - (c[0] - c[-1])));
-        }
-    }
-    second[0] = su, second[1] = sv;
-    slope[0] = du * mu, slope[1] = dv * mv;
+static inline double largest(const double *a, int count) {
+    double most = a[0];
+    for (int k = 1; k < count; k++)
+        most = larger(most, a[k]);
+    return most;
 }
 
-// Multiplies a net by M from both sides, in place.
-static inline void quasi(double *r, int du, int dv) {
+// Largest absolute second differences, and slopes of the control points, along both directions.
+// Maxima are kept by column, so that the inner loops vectorise.
+static inline void differences(const double *r, int du, int dv, double second[2], double slope[2]) {
     int row = dv + 1;
-    double before[LINE];
-    for (int j = 0; j < row; j++)
-        before[j] = r[j];
+    double first[LINE], before[LINE], most[LINE], most2[LINE];
+    for (int j = 0; j <= dv; j++) {
+        before[j] = r[row + j] - r[j];
+        most[j] = fabs(before[j]);
+        most2[j] = 0.0;
+    }
     for (int i = 1; i < du; i++) {
-        for (int j = 0; j < row; j++) {
-            double here = r[i * row + j];
-            r[i * row + j] = 0.25 * (before[j] + 2.0 * here + r[(i + 1) * row + j]);
+        const double *c = r + i * row;
+        for (int j = 0; j <= dv; j++) {
+            double here = c[row + j] - c[j];
+            most[j] = larger(most[j], fabs(here));
+            most2[j] = larger(most2[j], fabs(here - before[j]));
             before[j] = here;
         }
     }
+    second[0] = largest(most2, dv + 1);
+    slope[0] = du * largest(most, dv + 1);
+
+    for (int j = 0; j < dv; j++)
+        most[j] = most2[j] = 0.0;
     for (int i = 0; i <= du; i++) {
-        double *c = r + i * row, last = c[0];
-        for (int j = 1; j < dv; j++) {
-            double here = c[j];
-            c[j] = 0.25 * (last + 2.0 * here + c[j + 1]);
-            last = here;
+        const double *c = r + i * row;
+        for (int j = 0; j < dv; j++) {
+            first[j] = c[j + 1] - c[j];
+            most[j] = larger(most[j], fabs(first[j]));
+        }
+        for (int j = 1; j < dv; j++)
+            most2[j] = larger(most2[j], fabs(first[j] - first[j - 1]));
+    }
+    second[1] = largest(most2, dv);
+    slope[1] = dv * largest(most, dv);
+}
+
+// Span of the net M r M^T.
+static inline Span quasi_span(const double *r, int du, int dv) {
+    int row = dv + 1;
+    double low[LINE], high[LINE], c[LINE], q[LINE];
+    for (int i = 0; i <= du; i++) {
+        const double *here = r + i * row;
+        for (int j = 0; j <= dv; j++)
+            c[j] = i == 0 || i == du ? here[j]
+                                     : 0.25 * (here[j - row] + 2.0 * here[j] + here[j + row]);
+        q[0] = c[0];
+        q[dv] = c[dv];
+        for (int j = 1; j < dv; j++)
+            q[j] = 0.25 * (c[j - 1] + 2.0 * c[j] + c[j + 1]);
+        for (int j = 0; j <= dv; j++) {
+            low[j] = i == 0 || q[j] < low[j] ? q[j] : low[j];
+            high[j] = i == 0 || q[j] > high[j] ? q[j] : high[j];
         }
     }
+    Span a = span_of(low, row), b = span_of(high, row);
+    return (Span){a.low, b.high};
 }
 
 static inline Remainder bound_remainder(const QiNet *p, int du, int dv, QiForm f, double zu,
                                         double zv, const QiFrame *frame) {
-    double r[POINTS], second[2], slope[2];
+    double r[POINTS], second[2], slope[2], base_v[LINE];
+    for (int j = 0; j <= dv; j++)
+        base_v[j] = f.av * ((double)j / dv);
     for (int i = 0; i <= du; i++) {
         double base = f.au * ((double)i / du);
         for (int j = 0; j <= dv; j++) {
             int k = i * (dv + 1) + j;
-            r[k] = f.bx * p->x[k] + f.by * p->y[k] - base - f.av * ((double)j / dv);
+            r[k] = f.bx * p->x[k] + f.by * p->y[k] - (base + base_v[j]);
         }
     }
     differences(r, du, dv, second, slope);
-    quasi(r, du, dv);
+    Span s = quasi_span(r, du, dv);
     // Rounding: that of the coordinates, and of the parameters' share.
     double eps = zu * second[0] + zv * second[1] + fabs(f.bx) * frame->slack_x +
                  fabs(f.by) * frame->slack_y + 16.0 * DBL_EPSILON * (fabs(f.au) + fabs(f.av));
-    Span s = span_of(r, (du + 1) * (dv + 1));
     return (Remainder){{s.low - eps, s.high + eps}, slope[0] + slope[1]};
 }
 
@@ -298,14 +316,15 @@ static inline bool nearer_low(bool along_u, bool regular, QiForm f, double zu, d
 }
 
 static inline Step step_of(Search *q, BezierRect r, int du, int dv, Rest *rest) {
+    const QiNet *whole = &q->target.whole;
+    double wu[LINE * LINE], wv[LINE * LINE];
     QiNet p;
     int count = (du + 1) * (dv + 1);
     q->steps++;
-    restrict_net(&q->target.whole, du, dv, r, &p);
-    Span depth = span_of(p.z, count);
-    if (depth.high + q->target.frame.slack_z < q->target.frame.z_low ||
-        depth.low - q->target.frame.slack_z > qi_list_z_high(&q->target.list, &q->target.frame))
-        return STEP_DONE;
+    restriction(wu, du + 1, 1, du, r.u0, r.u1);
+    restriction(wv, 1, dv + 1, dv, r.v0, r.v1);
+    restrict_axis(whole->x, wu, wv, du, dv, p.x);
+    restrict_axis(whole->y, wu, wv, du, dv, p.y);
 
     QiForm forms[2];
     Remainder bounds[2];
@@ -319,6 +338,12 @@ static inline Step step_of(Search *q, BezierRect r, int du, int dv, Rest *rest) 
             !clip(forms[k].av, forms[k].au, bounds[k].span, u, &v))
             return STEP_DONE;
     }
+    restrict_axis(whole->z, wu, wv, du, dv, p.z);
+    Span depth = span_of(p.z, count);
+    if (depth.high + q->target.frame.slack_z < q->target.frame.z_low ||
+        depth.low - q->target.frame.slack_z > qi_list_z_high(&q->target.list, &q->target.frame))
+        return STEP_DONE;
+
     BezierRect left = r;
     narrow(&left.u0, &left.u1, u);
     narrow(&left.v0, &left.v1, v);
@@ -335,11 +360,11 @@ static inline Step step_of(Search *q, BezierRect r, int du, int dv, Rest *rest) 
             slope <= CERTAIN_SLOPE)
             return STEP_DONE;
     }
-    double wu = left.u1 - left.u0, wv = left.v1 - left.v0;
-    bool least = wu <= LEAST_WIDTH && wv <= LEAST_WIDTH;
+    double width_u = left.u1 - left.u0, width_v = left.v1 - left.v0;
+    bool least = width_u <= LEAST_WIDTH && width_v <= LEAST_WIDTH;
     // A width at its least counts as not shrinking, so that each such step halves what can shrink.
-    double kept_u = wu > LEAST_WIDTH ? wu / (r.u1 - r.u0) : 1.0;
-    double kept_v = wv > LEAST_WIDTH ? wv / (r.v1 - r.v0) : 1.0;
+    double kept_u = width_u > LEAST_WIDTH ? width_u / (r.u1 - r.u0) : 1.0;
+    double kept_v = width_v > LEAST_WIDTH ? width_v / (r.v1 - r.v0) : 1.0;
     if (!least && kept_u * kept_v <= 0.5)
         return STEP_AGAIN;
     if (!regular && bounds[0].slope < fmin(fabs(forms[0].au), fabs(forms[0].av)) &&
@@ -356,7 +381,7 @@ static inline Step step_of(Search *q, BezierRect r, int du, int dv, Rest *rest) 
     lengths(q, &p, du, dv, &along_u, &along_v);
     along_u *= u.high - u.low;
     along_v *= v.high - v.low;
-    rest->along_u = wv <= LEAST_WIDTH || (wu > LEAST_WIDTH && along_u >= along_v);
+    rest->along_u = width_v <= LEAST_WIDTH || (width_u > LEAST_WIDTH && along_u >= along_v);
     rest->low_first =
         nearer_low(rest->along_u, regular, forms[0], trend_u(p.z, du, dv), trend_v(p.z, du, dv));
     return STEP_HALVE;

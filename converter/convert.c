@@ -14,7 +14,7 @@
 
 #ifdef HOSTILE
 static const uint64_t DEFAULT_TOKENS = 5000000;
-static const size_t DEFAULT_BYTES = (size_t)2 << 30;
+static const size_t DEFAULT_BYTES = (size_t)160 << 20;
 #else
 static const uint64_t DEFAULT_TOKENS = 200000000;
 static const size_t DEFAULT_BYTES = (size_t)4 << 30;

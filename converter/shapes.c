@@ -51,6 +51,10 @@ static void parse_box(Converter *cv, ObjectNode *object) {
     optional_comma(cv);
     Vec3 b = parse_vector(cv);
     object->object.shape.box = (BoxShape){vec_min(a, b), vec_max(a, b)};
+    if (!vec_is_finite(a)) // NaN gets lost in comparisons
+        object->object.shape.box.low = a;
+    if (!vec_is_finite(b))
+        object->object.shape.box.high = b;
 }
 
 static void check_axis(Converter *cv, const Token *token, const ConeShape *cone, const char *what) {

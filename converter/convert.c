@@ -16,7 +16,7 @@ static const uint64_t DEFAULT_TOKENS = 5000000;
 static const size_t DEFAULT_BYTES = (size_t)2 << 30;
 #else
 static const uint64_t DEFAULT_TOKENS = 200000000;
-static const size_t DEFAULT_BYTES = (size_t)8 << 30;
+static const size_t DEFAULT_BYTES = (size_t)4 << 30;
 #endif
 
 static void on_interrupt(int number) {

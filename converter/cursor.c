@@ -29,8 +29,7 @@ static Frame *push_frame(Converter *cv, TokenList list, const Token *call) {
 static TokenList tokens_of(Converter *cv, const Source *source) {
     Language *l = cv->language;
     for (size_t i = 0; i < l->files.count; i++) {
-        const Source *known = l->files.items[i].source;
-        if (known == source || (known->text == source->text))
+        if (l->files.items[i].source == source)
             return l->files.items[i].tokens;
     }
     TokenList list = lexer_tokenize(cv, source);
@@ -42,7 +41,7 @@ void push_file(Converter *cv, const Source *source, const Token *call) {
     TokenList list = tokens_of(cv, source);
     if (call && ++cv->language->includes > MAX_INCLUDES) {
         Loc loc = token_loc(cv, call);
-        die_at(&loc, "too many nested include files (%d): does '%s' include itself?", MAX_INCLUDES,
+        die_at(&loc, "Too many nested include files (%d): does '%s' include itself?", MAX_INCLUDES,
                source->name);
     }
     list.count--; // the TOK_EOF behind the end stays readable for the main file
@@ -53,7 +52,7 @@ void push_macro(Converter *cv, const Macro *macro, const Token *call) {
     Language *l = cv->language;
     if (++l->calls > MAX_CALLS) {
         Loc loc = token_loc(cv, call);
-        die_at(&loc, "too many nested macro calls (%d): does '%s' call itself without end?",
+        die_at(&loc, "Too many nested macro calls (%d): does '%s' call itself without end?",
                MAX_CALLS, name_text(cv, macro->name));
     }
     push_frame(cv, macro->body, call)->macro = macro;
@@ -66,7 +65,7 @@ static void pop_frame(Converter *cv) {
     if (f->macro) {
         if (l->conditions.count != f->conditions) {
             Loc loc = token_loc(cv, l->conditions.items[l->conditions.count - 1].directive);
-            die_at(&loc, "this #%s has no #end before the end of macro '%s'",
+            die_at(&loc, "This #%s has no #end before the end of macro '%s'",
                    l->conditions.items[l->conditions.count - 1].directive->text,
                    name_text(cv, f->macro->name));
         }
@@ -137,7 +136,7 @@ Loc here(Converter *cv) { return token_loc(cv, peek_token(cv)); }
 void die_expected(Converter *cv, const char *what) {
     const Token *token = peek_token(cv);
     Loc loc = token_loc(cv, token);
-    die_at(&loc, "expected %s, %s found instead", what, token_describe(cv, token));
+    die_at(&loc, "Expected %s, %s found instead", what, token_describe(cv, token));
 }
 
 // ---- tokens -----------------------------------------------------------------------------------
@@ -159,7 +158,7 @@ _Noreturn static void die_limit(Converter *cv) {
 _Noreturn static void die_memory(Converter *cv) {
     Language *l = cv->language;
     Loc loc = token_loc(cv, l->last ? l->last : cv->frame->tokens);
-    die_at(&loc, "the scene needs too much memory (more than %zu MB while it is read)",
+    die_at(&loc, "The scene needs too much memory (more than %zu MB while it is read)",
            l->max_bytes >> 20);
 }
 
@@ -303,7 +302,7 @@ void expect(Converter *cv, int code, const char *where) {
     Loc loc = token_loc(cv, found);
     if (code == '}')
         die_at(&loc, "No matching } in '%s', %s found instead", where, token_describe(cv, found));
-    die_at(&loc, "expected %s in '%s', %s found instead", spelling(cv, code), where,
+    die_at(&loc, "Expected %s in '%s', %s found instead", spelling(cv, code), where,
            token_describe(cv, found));
 }
 
@@ -313,7 +312,7 @@ void enter_level(Converter *cv) {
     if (++cv->level <= MAX_LEVEL)
         return;
     Loc loc = token_loc(cv, cv->language->last ? cv->language->last : cv->frame->tokens);
-    die_at(&loc, "nested too deeply (%d levels of braces, parentheses and macro calls)", MAX_LEVEL);
+    die_at(&loc, "Nested too deeply (%d levels of braces, parentheses and macro calls)", MAX_LEVEL);
 }
 
 void leave_level(Converter *cv) { cv->level--; }

@@ -124,7 +124,7 @@ static void run_version(Converter *cv) {
     Loc loc = token_loc(cv, token);
     double version = parse_float(cv) * 100 + 0.5;
     if (!(version >= 1 && version < 371))
-        die_at(&loc, "this file requires POV-Ray version %.2f; 3.7 is what is understood here",
+        die_at(&loc, "This file requires POV-Ray version %.2f; 3.7 is what is understood here",
                (version - 0.5) / 100);
     cv->version = (int)version;
     cv->version_set = true;
@@ -153,14 +153,25 @@ void debug_text(Converter *cv, const char *text) {
     }
 }
 
+// Line ends inside become blanks, at the end they go.
+static const char *one_line(Converter *cv, const char *text) {
+    char *line = arena_strdup(cv->arena, text);
+    size_t length = strlen(line);
+    while (length && (line[length - 1] == '\n' || line[length - 1] == ' '))
+        line[--length] = '\0';
+    for (char *p = line; *p; p++)
+        *p = *p == '\n' || *p == '\r' ? ' ' : *p;
+    return line;
+}
+
 static void run_message(Converter *cv, const Token *word) {
     Loc loc = token_loc(cv, word);
     const char *text = string_for_output(cv, parse_string(cv));
     switch (word->code) {
     case KW_error:
-        die_at(&loc, "#error: %s", text);
+        die_at(&loc, "#error: %s", one_line(cv, text));
     case KW_warning:
-        warn_at(&loc, "#warning: %s", text);
+        warn_at(&loc, "#warning: %s", one_line(cv, text));
         return;
     case KW_debug:
         break;
@@ -172,9 +183,10 @@ static void run_message(Converter *cv, const Token *word) {
 
 // ---- all --------------------------------------------------------------------------------------
 
-_Noreturn static void die_unknown(Converter *cv, const Token *word) {
-    Loc loc = token_loc(cv, word);
-    die_at(&loc, "Expected 'object or directive', %s found after '#'", token_describe(cv, word));
+_Noreturn static void die_unknown(Converter *cv, const Token *hash, const Token *word) {
+    Loc loc = token_loc(cv, word ? word : hash);
+    die_at(&loc, "Expected 'object or directive', %s found after '#'",
+           word ? token_describe(cv, word) : "end of file");
 }
 
 static void run_plain(Converter *cv, const Token *word) {
@@ -214,26 +226,52 @@ static void run_plain(Converter *cv, const Token *word) {
     case KW_read:
         run_read(cv);
         break;
-    case KW_write:
+    default: // KW_write
         run_write(cv);
-        break;
+    }
+}
+
+static bool is_directive(int code) {
+    switch (code) {
+    case KW_declare:
+    case KW_local:
+    case KW_undef:
+    case KW_include:
+    case KW_version:
+    case KW_default:
+    case KW_macro:
+    case KW_debug:
+    case KW_warning:
+    case KW_error:
+    case KW_render:
+    case KW_statistics:
+    case KW_fopen:
+    case KW_fclose:
+    case KW_read:
+    case KW_write:
+        return true;
     default:
-        die_unknown(cv, word);
+        return false;
     }
 }
 
 void run_directive(Converter *cv, const Token *hash) {
     const Token *word = raw_peek(cv);
-    if (!word)
-        die_unknown(cv, hash);
-    raw_token(cv);
-    cv->language->last = word;
+    const Symbol *symbol =
+        word && word->code == TOK_IDENTIFIER ? name_symbol(cv, word->name) : NULL;
+    if (!word || word->code == TOK_NUMBER || (word->code == TOK_IDENTIFIER && !symbol))
+        die_unknown(cv, hash, word);
     enter_level(cv);
-    const Symbol *symbol = word->code == TOK_IDENTIFIER ? name_symbol(cv, word->name) : NULL;
-    if (symbol && symbol->value.type == VALUE_MACRO)
-        call_macro(cv, word, symbol->value.node);
-    else if (!run_conditional(cv, word))
+    if (is_directive(word->code)) {
+        cv->language->last = raw_token(cv);
         run_plain(cv, word);
+    } else if (!run_conditional(cv)) {
+        // POV-Ray drops a '#' before anything else: '#object' is 'object', '#Macro()' a call.
+        if (!symbol || symbol->value.type != VALUE_MACRO) {
+            Loc loc = token_loc(cv, hash);
+            warn_at(&loc, "'#' has no meaning before %s", token_describe(cv, word));
+        }
+    }
     leave_level(cv);
 }
 

@@ -74,7 +74,7 @@ static int function_call(Converter *cv, const Function *f, double e[5], int want
     for (int i = 0; i < count; i++) {
         if (next_is(cv, ')')) {
             Loc loc = here(cv);
-            die_at(&loc, "this function takes %d arguments, only %d found", count, i);
+            die_at(&loc, "This function takes %d arguments, only %d found", count, i);
         }
         arguments[i] = parse_float(cv);
         optional_comma(cv);
@@ -375,8 +375,9 @@ int parse_full(Converter *cv, double e[5], int want) {
 // ---- the places of the statements -------------------------------------------------------------
 
 _Noreturn static void die_width(Converter *cv, const Token *start, int want, int width) {
+    static const char *const wanted[] = {"Float", "UV vector", "Vector", "4d vector"};
     Loc loc = token_loc(cv, start);
-    die_at(&loc, "%s expected but %s expression found", width_name(want), width_name(width));
+    die_at(&loc, "%s expected but %s expression found", wanted[want - 1], width_name(width));
 }
 
 double parse_float(Converter *cv) {

@@ -13,10 +13,10 @@
 
 // ---- arguments --------------------------------------------------------------------------------
 
-double full_in_parentheses(Converter *cv) {
-    expect(cv, '(', "function call");
+double full_in_parentheses(Converter *cv, const char *where) {
+    expect(cv, '(', where);
     double v = parse_full_float(cv);
-    expect(cv, ')', "function call");
+    expect(cv, ')', where);
     return v;
 }
 
@@ -90,7 +90,7 @@ static double new_random(Converter *cv, double seed) {
     Language *l = cv->language;
     if (l->seeds.count >= MAX_ELEMENTS) {
         Loc loc = token_loc(cv, l->last);
-        die_at(&loc, "too many random number generators: call seed() once, not in a loop");
+        die_at(&loc, "Too many random number generators: call seed() once, not in a loop");
     }
     uint32_t state = (uint32_t)(int64_t)to_int(seed);
     list_push(cv, &l->seeds, state);
@@ -109,41 +109,41 @@ static bool one_float_call(Converter *cv, const Token *name, double *out) {
     };
     for (size_t i = 0; i < sizeof plain / sizeof *plain; i++) {
         if (plain[i].code == name->code) {
-            *out = plain[i].of(full_in_parentheses(cv));
+            *out = plain[i].of(full_in_parentheses(cv, name->text));
             return true;
         }
     }
     switch (name->code) {
     case KW_acos:
-        *out = acos(clamp_unit(cv, name, full_in_parentheses(cv)));
+        *out = acos(clamp_unit(cv, name, full_in_parentheses(cv, name->text)));
         return true;
     case KW_asin:
-        *out = asin(clamp_unit(cv, name, full_in_parentheses(cv)));
+        *out = asin(clamp_unit(cv, name, full_in_parentheses(cv, name->text)));
         return true;
     case KW_ln:
     case KW_log:
-        *out = full_in_parentheses(cv);
+        *out = full_in_parentheses(cv, name->text);
         if (*out <= 0)
             die_domain(cv, name, "the argument must be greater than 0");
         *out = name->code == KW_ln ? log(*out) : log10(*out);
         return true;
     case KW_sqrt:
-        *out = full_in_parentheses(cv);
+        *out = full_in_parentheses(cv, name->text);
         if (*out < 0)
             die_domain(cv, name, "the argument is negative");
         *out = sqrt(*out);
         return true;
     case KW_degrees:
-        *out = full_in_parentheses(cv) * (180.0 / M_PI);
+        *out = full_in_parentheses(cv, name->text) * (180.0 / M_PI);
         return true;
     case KW_radians:
-        *out = full_in_parentheses(cv) * (M_PI / 180.0);
+        *out = full_in_parentheses(cv, name->text) * (M_PI / 180.0);
         return true;
     case KW_rand:
-        *out = next_random(cv, name, full_in_parentheses(cv));
+        *out = next_random(cv, name, full_in_parentheses(cv, name->text));
         return true;
     case KW_seed:
-        *out = new_random(cv, full_in_parentheses(cv));
+        *out = new_random(cv, full_in_parentheses(cv, name->text));
         return true;
     default:
         return false;

@@ -109,7 +109,7 @@ static void parse_plain_base(Converter *cv, float out[5], bool with_filter) {
     int want = with_filter ? 5 : 3, width = parse_full(cv, e, want);
     if (width < want) {
         Loc loc = token_loc(cv, start);
-        die_at(&loc, "color expression expected but float or vector expression found");
+        die_at(&loc, "Color expression expected but float or vector expression found");
     }
     for (int i = 0; i < width; i++)
         out[i] = (float)e[i];
@@ -140,7 +140,7 @@ void parse_color_components(Converter *cv, float out[5], bool with_filter) {
     }
     if (!with_filter && (out[FILTER] != 0 || out[TRANSMIT] != 0)) {
         Loc loc = token_loc(cv, start);
-        warn_at(&loc, "expected a pure RGB color: filter and transmit have no effect here");
+        warn_at(&loc, "Expected a pure RGB color: filter and transmit have no effect here");
     }
 }
 

@@ -1,472 +1,15 @@
 // SPDX-License-Identifier: MIT
-// User functions (facts: sdl 2.7): the body's own small language, compiled to a postfix program for
-// a stack of doubles.
-//
-//   OR     := AND { '|' AND }
-//   AND    := COMPARE { '&' COMPARE }
-//   COMPARE:= SUM { ('=' | '!=' | '<' | '<=' | '>' | '>=') SUM }
-//   SUM    := PRODUCT { ('+' | '-') PRODUCT }
-//   PRODUCT:= UNARY { ('*' | '/') UNARY }
-//   UNARY  := { '+' | '-' } PRIMARY
-//
-// Comparisons are exact here. Bodies that are no formula (pigment, pattern, transform, spline,
-// internal) are kept as what they are.
-#include "converter/language.h"
+// Evaluates user functions: formulas as postfix programs on a stack of doubles, splines and
+// transforms by what they are. Pigments, patterns and the built-in internal functions have no value
+// here yet; needing one is an error at the function's body.
+#include "converter/function.h"
 
-#include <limits.h>
-#include <math.h>
-#include <string.h>
-
-typedef enum {
-    OP_CONSTANT, // push value
-    OP_ARGUMENT, // push argument i
-    OP_LOCAL,    // push the running index of sum or prod number i
-    OP_NEGATE,
-    OP_ADD,
-    OP_SUBTRACT,
-    OP_MULTIPLY,
-    OP_DIVIDE,
-    OP_EQUAL,
-    OP_NOT_EQUAL,
-    OP_LESS,
-    OP_LESS_EQUAL,
-    OP_GREATER,
-    OP_GREATER_EQUAL,
-    OP_AND,
-    OP_OR,
-    OP_CALL1, // C function of one
-    OP_CALL2, // C function of two
-    OP_SELECT3,
-    OP_SELECT4,
-    OP_USER, // other function; i: the component taken
-    OP_SUM,  // from, to on the stack; the next `length` instructions are the term
-    OP_PRODUCT,
-} Op;
-
-typedef struct {
-    Op op;
-    int i;
-    size_t length;
-    double value;
-    union {
-        double (*one)(double);
-        double (*two)(double, double);
-        const Function *user;
-    };
-} Instruction;
-
-typedef enum { BODY_FORMULA, BODY_INTERNAL, BODY_TRANSFORM, BODY_SPLINE, BODY_PIGMENT } BodyKind;
-
-struct Function {
-    Loc loc; // of its body
-    BodyKind kind;
-    int parameter_count;
-    LIST(Instruction) code;
-    int depth, max_depth; // of the stack; depth is used while compiling
-    int locals;
-    int internal;
-    const Spline *spline;
-    Value value; // of transform and pigment bodies
-};
-
-enum { MAX_STACK = 2048, MAX_LOCALS = 16 };
-
-typedef struct {
-    Converter *cv;
-    Function *f;
-    int codes[MAX_PARAMETERS]; // TOK_IDENTIFIER or KW_x and its like
-    uint32_t names[MAX_PARAMETERS];
-    uint32_t local_names[MAX_LOCALS];
-    int local_count; // that are visible
-} Compiler;
-
-static void parse_or(Compiler *c);
-
-// ---- emitting ---------------------------------------------------------------------------------
-
-static size_t emit(Compiler *c, Instruction instruction, int growth) {
-    Function *f = c->f;
-    list_push(c->cv, &f->code, instruction);
-    f->depth += growth;
-    if (f->depth > f->max_depth)
-        f->max_depth = f->depth;
-    if (f->depth >= MAX_STACK) {
-        Loc loc = here(c->cv);
-        die_at(&loc, "this function is too deeply nested");
-    }
-    return f->code.count - 1;
-}
-
-static void emit_constant(Compiler *c, double value) {
-    emit(c, (Instruction){.op = OP_CONSTANT, .value = value}, 1);
-}
-
-static void emit_argument(Compiler *c, int index) {
-    emit(c, (Instruction){.op = OP_ARGUMENT, .i = index}, 1);
-}
-
-// ---- calls ------------------------------------------------------------------------------------
-
-static double to_radians(double v) { return v * (M_PI / 180.0); }
-static double to_degrees(double v) { return v * (180.0 / M_PI); }
-static double to_integer(double v) {
-    return v > -2147483649.0 && v < 2147483648.0 ? trunc(v) : INT_MIN;
-}
-static double minimum(double a, double b) { return b < a ? b : a; }
-static double maximum(double a, double b) { return b > a ? b : a; }
-static double integer_divide(double a, double b) { return to_integer(a / b); }
-
-static const struct {
-    int code;
-    double (*of)(double);
-} unary_calls[] = {
-    {KW_sin, sin},
-    {KW_cos, cos},
-    {KW_tan, tan},
-    {KW_asin, asin},
-    {KW_acos, acos},
-    {KW_atan, atan},
-    {KW_sinh, sinh},
-    {KW_cosh, cosh},
-    {KW_tanh, tanh},
-    {KW_asinh, asinh},
-    {KW_acosh, acosh},
-    {KW_atanh, atanh},
-    {KW_abs, fabs},
-    {KW_sqrt, sqrt},
-    {KW_radians, to_radians},
-    {KW_degrees, to_degrees},
-    {KW_floor, floor},
-    {KW_ceil, ceil},
-    {KW_int, to_integer},
-    {KW_exp, exp},
-    {KW_ln, log},
-    {KW_log, log10},
-};
-
-static const struct {
-    int code;
-    double (*of)(double, double);
-} binary_calls[] = {
-    {KW_atan2, atan2},        {KW_pow, pow},     {KW_mod, fmod},
-    {KW_div, integer_divide}, {KW_min, minimum}, {KW_max, maximum},
-};
-
-// ( OR )
-static bool compile_unary_call(Compiler *c, int code) {
-    for (size_t i = 0; i < sizeof unary_calls / sizeof *unary_calls; i++) {
-        if (unary_calls[i].code != code)
-            continue;
-        expect(c->cv, '(', "function");
-        parse_or(c);
-        expect(c->cv, ')', "function");
-        emit(c, (Instruction){.op = OP_CALL1, .one = unary_calls[i].of}, 0);
-        return true;
-    }
-    return false;
-}
-
-// ( OR , OR ) and more of them for min and max
-static bool compile_binary_call(Compiler *c, int code) {
-    for (size_t i = 0; i < sizeof binary_calls / sizeof *binary_calls; i++) {
-        if (binary_calls[i].code != code)
-            continue;
-        expect(c->cv, '(', "function");
-        parse_or(c);
-        expect(c->cv, ',', "function");
-        do {
-            parse_or(c);
-            emit(c, (Instruction){.op = OP_CALL2, .two = binary_calls[i].of}, -1);
-        } while ((code == KW_min || code == KW_max) && accept(c->cv, ','));
-        expect(c->cv, ')', "function");
-        return true;
-    }
-    return false;
-}
-
-// ( OR , OR , OR [, OR] )
-static void compile_select(Compiler *c) {
-    expect(c->cv, '(', "select");
-    for (int i = 0; i < 3; i++) {
-        parse_or(c);
-        if (i < 2)
-            expect(c->cv, ',', "select");
-    }
-    if (accept(c->cv, ',')) {
-        parse_or(c);
-        emit(c, (Instruction){.op = OP_SELECT4}, -3);
-    } else {
-        emit(c, (Instruction){.op = OP_SELECT3}, -2);
-    }
-    expect(c->cv, ')', "select");
-}
-
-// (sum|prod) ( NAME , OR , OR , OR )
-static void compile_series(Compiler *c, Op op) {
-    expect(c->cv, '(', "sum or prod");
-    if (!next_is(c->cv, TOK_IDENTIFIER))
-        die_expected(c->cv, "the name of the running index");
-    if (c->local_count == MAX_LOCALS) {
-        Loc loc = here(c->cv);
-        die_at(&loc, "sum and prod are nested too deeply (%d)", MAX_LOCALS);
-    }
-    uint32_t name = next_token(c->cv)->name;
-    expect(c->cv, ',', "sum or prod");
-    parse_or(c);
-    expect(c->cv, ',', "sum or prod");
-    parse_or(c);
-    expect(c->cv, ',', "sum or prod");
-    int slot = c->local_count++;
-    c->local_names[slot] = name;
-    if (c->local_count > c->f->locals)
-        c->f->locals = c->local_count;
-    size_t at = emit(c, (Instruction){.op = op, .i = slot}, -2);
-    parse_or(c);
-    c->f->code.items[at].length = c->f->code.count - at - 1;
-    c->local_count--;
-    expect(c->cv, ')', "sum or prod");
-}
-
-// ( OR [,] ... ) [ '.' member ]
-static void compile_user_call(Compiler *c, const Function *user) {
-    static const int members[][2] = {{KW_x, 0}, {KW_u, 0},      {KW_red, 0},     {KW_y, 1},
-                                     {KW_v, 1}, {KW_green, 1},  {KW_z, 2},       {KW_blue, 2},
-                                     {KW_t, 3}, {KW_filter, 3}, {KW_transmit, 4}};
-    expect(c->cv, '(', "function call");
-    for (int i = 0; i < user->parameter_count; i++) {
-        if (i)
-            optional_comma(c->cv);
-        parse_or(c);
-    }
-    expect(c->cv, ')', "function call");
-    int component = 0;
-    if (function_width(user) > 1) {
-        expect(c->cv, '.', "function of several components");
-        size_t m = 0, count = sizeof members / sizeof *members;
-        while (m < count && !next_is(c->cv, members[m][0]))
-            m++;
-        if (m == count)
-            die_expected(c->cv, "x, y, z, t or a color component");
-        next_token(c->cv);
-        component = members[m][1];
-    }
-    emit(c, (Instruction){.op = OP_USER, .i = component, .user = user}, 1 - user->parameter_count);
-}
-
-// ---- primaries --------------------------------------------------------------------------------
-
-// x and u, y and v, z: the parameter of either name, 0 if there is none.
-static void compile_axis(Compiler *c, int code) {
-    static const int groups[3][2] = {{KW_x, KW_u}, {KW_y, KW_v}, {KW_z, KW_z}};
-    int group = code == KW_x || code == KW_u ? 0 : code == KW_z ? 2 : 1;
-    for (int i = 0; i < c->f->parameter_count; i++) {
-        if (c->codes[i] == groups[group][0] || c->codes[i] == groups[group][1]) {
-            emit_argument(c, i);
-            return;
-        }
-    }
-    emit_constant(c, 0);
-}
-
-static void compile_identifier(Compiler *c, const Token *token) {
-    Converter *cv = c->cv;
-    for (int i = c->local_count; i-- > 0;) {
-        if (c->local_names[i] == token->name) {
-            next_token(cv);
-            emit(c, (Instruction){.op = OP_LOCAL, .i = i}, 1);
-            return;
-        }
-    }
-    for (int i = 0; i < c->f->parameter_count; i++) {
-        if (c->codes[i] == TOK_IDENTIFIER && c->names[i] == token->name) {
-            next_token(cv);
-            emit_argument(c, i);
-            return;
-        }
-    }
-    ValueType type = peek_value_type(cv);
-    const Value *value;
-    if ((value = accept_value(cv, VALUE_FLOAT)))
-        emit_constant(c, value->c[0]);
-    else if (type == VALUE_FUNCTION)
-        compile_user_call(c, accept_value(cv, VALUE_FUNCTION)->node);
-    else
-        die_expected(cv, "a float, a parameter or a function in the function's body");
-}
-
-static void parse_primary(Compiler *c) {
-    Converter *cv = c->cv;
-    const Token *token = peek_token(cv);
-    switch (token->code) {
-    case TOK_NUMBER:
-        emit_constant(c, next_token(cv)->number);
-        return;
-    case TOK_IDENTIFIER:
-        compile_identifier(c, token);
-        return;
-    case '(':
-        next_token(cv);
-        parse_or(c);
-        expect(cv, ')', "function");
-        return;
-    case KW_pi:
-        next_token(cv);
-        emit_constant(c, M_PI);
-        return;
-    case KW_clock:
-        next_token(cv);
-        emit_constant(c, (double)(float)cv->options->clock);
-        return;
-    case KW_x:
-    case KW_y:
-    case KW_z:
-    case KW_u:
-    case KW_v:
-        next_token(cv);
-        compile_axis(c, token->code);
-        return;
-    default:
-        break;
-    }
-    if (token->code < KW_FIRST)
-        die_expected(cv, "a number, a parameter or a function in the function's body");
-    next_token(cv);
-    if (token->code == KW_select)
-        compile_select(c);
-    else if (token->code == KW_sum || token->code == KW_prod)
-        compile_series(c, token->code == KW_sum ? OP_SUM : OP_PRODUCT);
-    else if (!compile_unary_call(c, token->code) && !compile_binary_call(c, token->code)) {
-        Loc loc = token_loc(cv, token);
-        die_at(&loc, "'%s' cannot stand in a function's body", token->text);
-    }
-}
-
-// ---- operators --------------------------------------------------------------------------------
-
-static void parse_unary(Compiler *c) {
-    bool negative = false;
-    for (;;) {
-        if (accept(c->cv, '-'))
-            negative = !negative;
-        else if (!accept(c->cv, '+'))
-            break;
-    }
-    parse_primary(c);
-    if (negative)
-        emit(c, (Instruction){.op = OP_NEGATE}, 0);
-}
-
-// The binary operators, loosest first. ORDER precedence
-static const struct {
-    int code, level;
-    Op op;
-} operators[] = {
-    {'|', 0, OP_OR},       {'&', 1, OP_AND},
-    {'=', 2, OP_EQUAL},    {TOK_NE, 2, OP_NOT_EQUAL},
-    {'<', 2, OP_LESS},     {TOK_LE, 2, OP_LESS_EQUAL},
-    {'>', 2, OP_GREATER},  {TOK_GE, 2, OP_GREATER_EQUAL},
-    {'+', 3, OP_ADD},      {'-', 3, OP_SUBTRACT},
-    {'*', 4, OP_MULTIPLY}, {'/', 4, OP_DIVIDE},
-};
-enum { UNARY_LEVEL = 5 };
-
-static void parse_binary(Compiler *c, int level) {
-    if (level == UNARY_LEVEL) {
-        parse_unary(c);
-        return;
-    }
-    parse_binary(c, level + 1);
-    for (size_t i = 0; i < sizeof operators / sizeof *operators;) {
-        if (operators[i].level != level || !accept(c->cv, operators[i].code)) {
-            i++;
-            continue;
-        }
-        parse_binary(c, level + 1);
-        emit(c, (Instruction){.op = operators[i].op}, -1);
-        i = 0;
-    }
-}
-
-static void parse_or(Compiler *c) {
-    enter_level(c->cv);
-    parse_binary(c, 0);
-    leave_level(c->cv);
-}
-
-// ---- the declaration --------------------------------------------------------------------------
-
-static bool is_axis(int code) {
-    return code == KW_x || code == KW_y || code == KW_z || code == KW_u || code == KW_v;
-}
-
-// [ ( NAME [,] ... ) ]: without a list x, y, z.
-static void parse_parameters(Compiler *c) {
-    Converter *cv = c->cv;
-    Function *f = c->f;
-    if (!accept(cv, '(')) {
-        static const int axes[3] = {KW_x, KW_y, KW_z};
-        for (; f->parameter_count < 3; f->parameter_count++)
-            c->codes[f->parameter_count] = axes[f->parameter_count];
-        return;
-    }
-    do {
-        const Token *token = peek_token(cv);
-        bool fresh = token->code == TOK_IDENTIFIER && !ahead_place(cv);
-        if (!fresh && !is_axis(token->code)) {
-            Loc loc = token_loc(cv, token);
-            die_at(&loc,
-                   "Expected 'parameter identifier', %s found instead: a function's "
-                   "parameter must be a new name or one of x y z u v",
-                   token_describe(cv, token));
-        }
-        if (f->parameter_count == MAX_PARAMETERS)
-            die_expected(cv, "no more than 256 parameters");
-        next_token(cv);
-        c->codes[f->parameter_count] = token->code;
-        c->names[f->parameter_count++] = token->name;
-        optional_comma(cv);
-    } while (!accept(cv, ')'));
-}
-
-static bool parse_special(Compiler *c) {
-    Converter *cv = c->cv;
-    Function *f = c->f;
-    if (accept(cv, KW_internal)) {
-        f->kind = BODY_INTERNAL;
-        expect(cv, '(', "internal");
-        f->internal = (int)fmin(fmax(parse_float(cv), 0), 1000);
-        expect(cv, ')', "internal");
-    } else if (accept(cv, KW_spline)) {
-        f->kind = BODY_SPLINE;
-        f->parameter_count = 1;
-        f->spline = parse_spline(cv);
-    } else if (next_is(cv, KW_transform) || next_is(cv, KW_pigment) || next_is(cv, KW_pattern)) {
-        f->kind = next_is(cv, KW_transform) ? BODY_TRANSFORM : BODY_PIGMENT;
-        if (!parse_statement_value(cv, &f->value))
-            die_expected(cv, "a function's body");
-    } else {
-        return false;
-    }
-    return true;
-}
-
-Function *parse_function(Converter *cv) {
-    enter_level(cv);
-    bool held = release_directives(cv);
-    Compiler *c = ARENA_NEW(cv->arena, Compiler);
-    c->cv = cv;
-    Function *f = c->f = ARENA_NEW(cv->arena, Function);
-    parse_parameters(c);
-    f->loc = here(cv);
-    expect(cv, '{', "function");
-    accept(cv, TOK_STRING);
-    if (!parse_special(c))
-        parse_or(c);
-    expect(cv, '}', "function");
-    restore_directives(cv, held);
-    leave_level(cv);
-    return f;
-}
+// Instructions of one evaluation.
+#ifdef HOSTILE
+static const uint64_t MAX_STEPS = 1000000;
+#else
+static const uint64_t MAX_STEPS = 1000000000;
+#endif
 
 int function_parameter_count(const Function *f) { return f->parameter_count; }
 
@@ -478,19 +21,18 @@ int function_width(const Function *f) {
     case BODY_SPLINE:
         return spline_evaluate(f->spline, SPLINE_LINEAR, 0, e);
     case BODY_PIGMENT:
-        return f->value.type == VALUE_PIGMENT ? 5 : 1;
+        return 5;
     default:
         return 1;
     }
 }
-
-// ---- evaluation -------------------------------------------------------------------------------
 
 typedef struct {
     const Function *f;
     const double *arguments;
     double locals[MAX_LOCALS];
     double *stack;
+    uint64_t *steps; // left for the whole evaluation
 } Machine;
 
 static size_t run(Machine *m, size_t from, size_t to, size_t top);
@@ -498,8 +40,6 @@ static size_t run(Machine *m, size_t from, size_t to, size_t top);
 static size_t run_series(Machine *m, size_t at, size_t top) {
     const Instruction *in = &m->f->code.items[at];
     double low = m->stack[top - 2], high = m->stack[top - 1], all = in->op == OP_SUM ? 0 : 1;
-    if (high - low > 1e8)
-        die_at(&m->f->loc, "sum or prod over more than 1e8 terms");
     for (double i = low; i <= high; i++) {
         m->locals[in->i] = i;
         run(m, at + 1, at + 1 + in->length, top);
@@ -509,11 +49,14 @@ static size_t run_series(Machine *m, size_t at, size_t top) {
     return top - 1;
 }
 
+static void evaluate_body(const Function *f, const double *arguments, uint64_t *steps, double e[5]);
+
 static size_t run_user(Machine *m, const Instruction *in, size_t top) {
     size_t first = top - (size_t)in->user->parameter_count;
     double e[5] = {0};
-    function_evaluate_vector(in->user, m->stack + first, e);
-    m->stack[first] = e[in->i];
+    evaluate_body(in->user, m->stack + first, m->steps, e);
+    // Component -1 is the grey of a colour.
+    m->stack[first] = in->i < 0 ? 0.297 * e[0] + 0.589 * e[1] + 0.114 * e[2] : e[in->i];
     return first + 1;
 }
 
@@ -551,6 +94,8 @@ static size_t run(Machine *m, size_t from, size_t to, size_t top) {
     double *s = m->stack;
     for (size_t at = from; at < to; at++) {
         const Instruction *in = &m->f->code.items[at];
+        if (--*m->steps == 0)
+            die_at(&m->f->loc, "The evaluation of this function has run too long");
         switch (in->op) {
         case OP_CONSTANT:
             s[top++] = in->value;
@@ -595,24 +140,25 @@ static size_t run(Machine *m, size_t from, size_t to, size_t top) {
     return top;
 }
 
-static double evaluate_formula(const Function *f, const double *arguments) {
+static double evaluate_formula(const Function *f, const double *arguments, uint64_t *steps) {
     double small[64], *stack = small;
     Arena *arena = NULL;
     if (f->max_depth + 2 > (int)(sizeof small / sizeof *small)) {
         arena = arena_create();
         stack = ARENA_ARRAY(arena, double, (size_t)f->max_depth + 2);
     }
-    Machine m = {.f = f, .arguments = arguments, .stack = stack};
+    Machine m = {.f = f, .arguments = arguments, .stack = stack, .steps = steps};
     run(&m, 0, f->code.count, 0);
     double result = stack[0];
     arena_destroy(arena);
     return result;
 }
 
-void function_evaluate_vector(const Function *f, const double *arguments, double e[5]) {
+static void evaluate_body(const Function *f, const double *arguments, uint64_t *steps,
+                          double e[5]) {
     switch (f->kind) {
     case BODY_FORMULA:
-        e[0] = evaluate_formula(f, arguments);
+        e[0] = evaluate_formula(f, arguments, steps);
         return;
     case BODY_SPLINE:
         spline_evaluate(f->spline, spline_kind(f->spline), arguments[0], e);
@@ -627,13 +173,18 @@ void function_evaluate_vector(const Function *f, const double *arguments, double
     }
     case BODY_INTERNAL:
         die_at(&f->loc,
-               "the value of the built-in function internal(%d) is needed to read this "
+               "The value of the built-in function internal(%d) is needed to read this "
                "scene, and is not modelled yet",
                f->internal);
     default:
-        die_at(&f->loc, "the value of this pigment or pattern is needed to read this scene, and is "
+        die_at(&f->loc, "The value of this pigment or pattern is needed to read this scene, and is "
                         "not modelled yet");
     }
+}
+
+void function_evaluate_vector(const Function *f, const double *arguments, double e[5]) {
+    uint64_t steps = MAX_STEPS;
+    evaluate_body(f, arguments, &steps, e);
 }
 
 double function_evaluate(const Function *f, const double *arguments) {

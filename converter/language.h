@@ -117,7 +117,7 @@ void promote(double e[5], int *width, int to);
 bool parse_call(Converter *cv, double e[5], int *width, int want);
 bool is_number_keyword(int code); // begins a float of its own or a float function
 bool is_vector_keyword(int code);
-double full_in_parentheses(Converter *cv); // ( FULL )
+double full_in_parentheses(Converter *cv, const char *where); // ( FULL )
 double days_since_2000(void);
 
 // expr_color.c
@@ -218,6 +218,7 @@ typedef struct Language {
     size_t condition_floor; // conditions that belong to outer frames of a macro call
     Frame *spare;
     LIST(Condition) conditions;
+    LIST(const Source *) sources;
     LIST(TokenizedFile) files;
     LIST(const char *) library;
     LIST(uint32_t) seeds; // states of the random streams
@@ -241,8 +242,8 @@ void expect_raw(Converter *cv, int code, const char *where);
 void run_directive(Converter *cv, const Token *hash); // after its '#'
 void check_all_closed(Converter *cv);                 // at the end of the main file
 bool place_is_set(Converter *cv);                     // ( IDENTIFIER [subscripts] )
-// loop.c: true if word was one of #if ... #end.
-bool run_conditional(Converter *cv, const Token *word);
+// loop.c: if the word after the '#' is one of if ... end, takes it and runs it.
+bool run_conditional(Converter *cv);
 const char *innermost_loop(Converter *cv, Loc *loc); // its name for a message, or NULL
 void define_macro(Converter *cv, const Token *word);
 void call_macro(Converter *cv, const Token *name, const Macro *macro);

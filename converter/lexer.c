@@ -90,16 +90,17 @@ static void skip_block_comment(Lexer *lx) {
     }
     lx->line = line;
     lx->line_start = start_line;
-    add_error(lx, start, "this comment never ends: no closing */ (they nest)");
+    add_error(lx, start, "This comment never ends: no closing */ (they nest)");
 }
 
 // digits [. digits] [e [sign] digits]; "5.", ".5" and "1e" are numbers too.
 static void read_number(Lexer *lx) {
+    static const char extra_period[] = "Unexpected additional '.' in floating-point number";
     const char *start = lx->p, *p = start;
     bool period = false;
     for (; p < lx->end && (isdigit((unsigned char)*p) || *p == '.'); p++) {
         if (*p == '.' && period) {
-            add_error(lx, p, "unexpected additional '.' in floating-point number");
+            add_error(lx, p, extra_period);
             return;
         }
         period = period || *p == '.';
@@ -111,6 +112,10 @@ static void read_number(Lexer *lx) {
             p++;
         while (p < lx->end && isdigit((unsigned char)*p))
             p++;
+        if (p < lx->end && *p == '.') {
+            add_error(lx, p, extra_period);
+            return;
+        }
     }
     // strtod knows hexadecimal; the language does not: 0x10 is 0 and the identifier x10.
     bool hexadecimal = mantissa - start == 1 && *start == '0' && mantissa < lx->end &&
@@ -126,7 +131,7 @@ static void read_word(Lexer *lx) {
         p++;
     size_t length = (size_t)(p - start);
     if (length > MAX_IDENTIFIER) {
-        add_error(lx, start, "this identifier is too long (4096 characters are the limit)");
+        add_error(lx, start, "This identifier is too long (4096 characters are the limit)");
         return;
     }
     int code = find_keyword(start, length);
@@ -147,7 +152,7 @@ static void read_string(Lexer *lx) {
     lx->p++;
     while (lx->p < lx->end && *lx->p != '"') {
         if (*lx->p == '\0') {
-            add_error(lx, lx->p, "a NUL byte inside a string");
+            add_error(lx, lx->p, "A NUL byte inside a string");
             return;
         }
         if (is_line_end(*lx->p)) {
@@ -163,9 +168,9 @@ static void read_string(Lexer *lx) {
     lx->line_start = line_start;
     size_t length = (size_t)(lx->p - start) - 1;
     if (lx->p >= lx->end) {
-        add_error(lx, start, "no end quote for this string");
+        add_error(lx, start, "No end quote for this string");
     } else if (length > MAX_STRING) {
-        add_error(lx, start, "string too long (1 MiB is the limit)");
+        add_error(lx, start, "String too long (1 MiB is the limit)");
     } else {
         char *text = arena_alloc(lx->cv->arena, length + 1);
         memcpy(text, start + 1, length);
@@ -192,7 +197,7 @@ static void read_symbol(Lexer *lx) {
                                ? " (letters outside ASCII may stand only in strings and comments)"
                                : " (is this a text file?)";
         add_error(lx, start,
-                  arena_printf(lx->cv->arena, "illegal character in input file, value is %02x%s", c,
+                  arena_printf(lx->cv->arena, "Illegal character in input file, value is %02x%s", c,
                                hint));
     }
 }

@@ -15,7 +15,7 @@ static Condition *open_condition(Converter *cv, ConditionKind kind, const Token 
     Language *l = cv->language;
     if (l->conditions.count > 100000) {
         Loc loc = token_loc(cv, word);
-        die_at(&loc, "too many nested conditionals");
+        die_at(&loc, "Too many nested conditionals");
     }
     Condition c = {.kind = kind, .directive = word, .frame = cv->frame->serial};
     list_push(cv, &l->conditions, c);
@@ -35,7 +35,7 @@ void check_all_closed(Converter *cv) {
         return;
     const Token *word = l->conditions.items[l->conditions.count - 1].directive;
     Loc loc = token_loc(cv, word);
-    die_at(&loc, "this #%s has no #end (the end of the file was reached)", word->text);
+    die_at(&loc, "This #%s has no #end (the end of the file was reached)", word->text);
 }
 
 const char *innermost_loop(Converter *cv, Loc *loc) {
@@ -67,7 +67,7 @@ static const Token *skip_block(Converter *cv, const Token *opener, int stop_at, 
         const Token *token = ended ? NULL : raw_token(cv);
         if (!token || token->code == TOK_EOF) {
             Loc loc = token_loc(cv, opener);
-            die_at(&loc, "this #%s has no #end (the end of the %s was reached)", opener->text,
+            die_at(&loc, "This #%s has no #end (the end of the %s was reached)", opener->text,
                    token ? "file" : "macro");
         }
         if (token->code != '#' || !raw_peek(cv))
@@ -90,15 +90,15 @@ static void skip_to_end(Converter *cv, const Token *opener) { skip_block(cv, ope
 
 // ---- #if --------------------------------------------------------------------------------------
 
-static double condition_value(Converter *cv) {
+static double condition_value(Converter *cv, const Token *word) {
     bool held = hold_directives(cv);
-    double v = full_in_parentheses(cv);
+    double v = full_in_parentheses(cv, word->text);
     restore_directives(cv, held);
     return v;
 }
 
 static void run_if(Converter *cv, const Token *word) {
-    bool taken = word->code == KW_if ? is_true(condition_value(cv))
+    bool taken = word->code == KW_if ? is_true(condition_value(cv, word))
                                      : place_is_set(cv) == (word->code == KW_ifdef);
     if (taken) {
         open_condition(cv, CONDITION_IF, word);
@@ -112,7 +112,7 @@ static void run_if(Converter *cv, const Token *word) {
             open_condition(cv, CONDITION_ELSE, word);
             return;
         }
-        if (is_true(condition_value(cv))) {
+        if (is_true(condition_value(cv, branch))) {
             open_condition(cv, CONDITION_IF, word);
             return;
         }
@@ -135,7 +135,7 @@ static void run_else(Converter *cv, const Token *word) {
 // After #case or #range.
 static bool case_matches(Converter *cv, const Token *word, double subject) {
     if (word->code == KW_case) {
-        return fabs(condition_value(cv) - subject) < EPSILON;
+        return fabs(condition_value(cv, word) - subject) < EPSILON;
     }
     bool held = hold_directives(cv);
     expect(cv, '(', "#range");
@@ -167,7 +167,7 @@ static const Token *first_case(Converter *cv, const Token *opener) {
 }
 
 static void run_switch(Converter *cv, const Token *opener) {
-    double subject = condition_value(cv);
+    double subject = condition_value(cv, opener);
     const Token *word = first_case(cv, opener);
     for (;;) {
         if (word->code == KW_end)
@@ -191,7 +191,7 @@ static void run_case(Converter *cv, const Token *word) {
 
 static void run_while(Converter *cv, const Token *word) {
     size_t at = cv->frame->at;
-    if (is_true(condition_value(cv)))
+    if (is_true(condition_value(cv, word)))
         open_condition(cv, CONDITION_WHILE, word)->at = at;
     else
         skip_to_end(cv, word);
@@ -266,7 +266,8 @@ static void run_end(Converter *cv, const Token *word) {
             die_mismatched(cv, word, "a loop must end in the file where it started");
         size_t after = cv->frame->at, index = (size_t)(c - cv->language->conditions.items);
         cv->frame->at = c->at;
-        bool again = c->kind == CONDITION_FOR ? step_for(cv, c) : is_true(condition_value(cv));
+        bool again =
+            c->kind == CONDITION_FOR ? step_for(cv, c) : is_true(condition_value(cv, c->directive));
         if (again)
             return;
         cv->frame->at = after;
@@ -292,37 +293,22 @@ static void run_break(Converter *cv, const Token *word) {
     leave_macro(cv);
 }
 
-bool run_conditional(Converter *cv, const Token *word) {
-    switch (word->code) {
-    case KW_if:
-    case KW_ifdef:
-    case KW_ifndef:
-        run_if(cv, word);
-        return true;
-    case KW_else:
-    case KW_elseif:
-        run_else(cv, word);
-        return true;
-    case KW_switch:
-        run_switch(cv, word);
-        return true;
-    case KW_case:
-    case KW_range:
-        run_case(cv, word);
-        return true;
-    case KW_while:
-        run_while(cv, word);
-        return true;
-    case KW_for:
-        run_for(cv, word);
-        return true;
-    case KW_break:
-        run_break(cv, word);
-        return true;
-    case KW_end:
-        run_end(cv, word);
-        return true;
-    default:
-        return false;
+bool run_conditional(Converter *cv) {
+    static const struct {
+        int code;
+        void (*run)(Converter *, const Token *);
+    } words[] = {
+        {KW_if, run_if},       {KW_ifdef, run_if},      {KW_ifndef, run_if},   {KW_else, run_else},
+        {KW_elseif, run_else}, {KW_switch, run_switch}, {KW_case, run_case},   {KW_range, run_case},
+        {KW_while, run_while}, {KW_for, run_for},       {KW_break, run_break}, {KW_end, run_end},
+    };
+    const Token *word = raw_peek(cv);
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++) {
+        if (words[i].code == word->code) {
+            cv->language->last = raw_token(cv);
+            words[i].run(cv, word);
+            return true;
+        }
     }
+    return false;
 }

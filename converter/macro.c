@@ -16,7 +16,7 @@ static TokenList read_body(Converter *cv, const Token *word) {
     for (;;) {
         if (f->at == f->count) {
             Loc loc = token_loc(cv, word);
-            die_at(&loc, "this #macro has no #end (the end of the file was reached)");
+            die_at(&loc, "This #macro has no #end (the end of the file was reached)");
         }
         const Token *hash = raw_token(cv);
         const Token *next = raw_peek(cv);
@@ -45,7 +45,7 @@ static void read_parameters(Converter *cv, Macro *macro) {
         }
         if (macro->parameter_count == MAX_PARAMETERS) {
             Loc loc = here(cv);
-            die_at(&loc, "too many parameters (%d are the limit)", MAX_PARAMETERS);
+            die_at(&loc, "Too many parameters (%d are the limit)", MAX_PARAMETERS);
         }
         macro->parameters[macro->parameter_count++] = next_token(cv)->name;
         optional_comma(cv);
@@ -71,7 +71,7 @@ static void bind_macro(Converter *cv, Macro *macro) {
 void define_macro(Converter *cv, const Token *word) {
     if (cv->version < 310) {
         Loc loc = token_loc(cv, word);
-        die_at(&loc, "macros require #version 3.1 or later but #version %d.%02d is set",
+        die_at(&loc, "Macros require #version 3.1 or later but #version %d.%02d is set",
                cv->version / 100, cv->version % 100);
     }
     bool held = hold_directives(cv);

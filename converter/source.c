@@ -162,6 +162,14 @@ const char *source_find(Converter *cv, const char *name, FileKind kind) {
     return path ? path : find_any_case(cv, names, count);
 }
 
+static const Source *known_source(const Converter *cv, const char *path) {
+    for (size_t i = 0; i < cv->language->sources.count; i++) {
+        if (strcmp(cv->language->sources.items[i]->name, path) == 0)
+            return cv->language->sources.items[i];
+    }
+    return NULL;
+}
+
 const Source *source_open(Converter *cv, const char *name, FileKind kind, const Loc *loc) {
     static const char *const what[] = {"scene file", "include file", "image file", "font file",
                                        "file"};
@@ -172,23 +180,26 @@ const Source *source_open(Converter *cv, const char *name, FileKind kind, const 
     struct stat st;
     bool folder = stat(name, &st) == 0 && S_ISDIR(st.st_mode);
     const char *path = source_find(cv, name, kind), *why = folder ? "it is a directory" : NULL;
+    const Source *known = path ? known_source(cv, path) : NULL;
+    if (known)
+        return known;
     char *text = NULL;
     size_t size = 0;
     if (path)
         text = file_read(cv->arena, path, &size, &why);
     if (!text) {
         if (why)
-            die_at(loc, "cannot open %s '%s': %s", what[kind], name, why);
-        die_at(
-            loc,
-            "cannot open %s '%s': not in the working directory, the library paths (+L) or beside "
-            "the scene",
-            what[kind], name);
+            die_at(loc, "Cannot open %s '%s': %s", what[kind], name, why);
+        die_at(loc,
+               "Cannot open %s '%s': it is not in the working directory, in a library path "
+               "(+L)%s",
+               what[kind], name, kind == FILE_SCENE ? "" : " or beside the scene");
     }
     Source *source = ARENA_NEW(cv->arena, Source);
     source->name = path;
     source->text = text;
     source->size = size;
     source->utf8 = kind == FILE_SCENE && size > 0 && (unsigned char)text[0] > 127;
+    list_push(cv, &cv->language->sources, source);
     return source;
 }

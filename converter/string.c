@@ -105,12 +105,12 @@ static const char *read_escape(Converter *cv, const Token *token, const char *s,
         return s + 1;
     }
     if (*s != 'u')
-        die_in(cv, token, "illegal escape sequence in string (a backslash is written \\\\)");
+        die_in(cv, token, "Illegal escape sequence in string (a backslash is written \\\\)");
     char digits[5] = {0};
     for (int i = 0; i < 4; i++) {
         char c = s[1 + i];
         if (!c || !strchr("0123456789abcdefABCDEF", c))
-            die_in(cv, token, "unexpected end of escape sequence: \\u needs four hex digits");
+            die_in(cv, token, "Unexpected end of escape sequence: \\u needs four hex digits");
         digits[i] = c;
     }
     *unit = (unsigned)strtoul(digits, NULL, 16);
@@ -139,7 +139,7 @@ const char *string_from_literal(Converter *cv, const Token *token, bool file_nam
             if (unit > 127 && cv->version >= 350) {
                 if (!warned) {
                     Loc loc = token_loc(cv, token);
-                    warn_at(&loc, "letters outside ASCII in a string: each byte becomes a blank "
+                    warn_at(&loc, "Letters outside ASCII in a string: each byte becomes a blank "
                                   "(global_settings { charset utf8 } reads them)");
                 }
                 warned = true;
@@ -158,15 +158,15 @@ static void check_length(Converter *cv, size_t length) {
     if (length <= MAX_STRING)
         return;
     Loc loc = token_loc(cv, cv->language->last);
-    die_at(&loc, "string too long (1 MiB is the limit)");
+    die_at(&loc, "String too long (1 MiB is the limit)");
 }
 
 // chr ( FULL )
 static const char *parse_chr(Converter *cv) {
     const Token *start = peek_token(cv);
-    double v = full_in_parentheses(cv);
+    double v = full_in_parentheses(cv, "chr");
     if (!(v > -1 && v < 65536))
-        die_in(cv, start, "chr() needs a number from 0 to 65535");
+        die_in(cv, start, "Chr() needs a number from 0 to 65535");
     char *out = arena_alloc(cv->arena, 4);
     put_unit(out, (unsigned)v);
     return out;
@@ -208,7 +208,7 @@ static const char *parse_substr(Converter *cv) {
     size_t units = string_units(s);
     if (!(p >= 0 && n >= 0 && p + n <= (double)units + 1)) {
         Loc loc = token_loc(cv, start);
-        die_at(&loc, "illegal parameters in substr: %g characters from %g of a string of %zu", n, p,
+        die_at(&loc, "Illegal parameters in substr: %g characters from %g of a string of %zu", n, p,
                units);
     }
     // Position 0 is before the text; POV-Ray finds nothing there.
@@ -233,7 +233,7 @@ static const char *parse_case(Converter *cv, const char *where, char low, char h
 // C's "%[0]L.Pf"; a number that needs more than 254 characters is written with %g.
 static const char *format_number(Converter *cv, double v, double length, double precision) {
     int width = length >= 0 ? (int)fmin(length, 250) : (int)fmin(-length, 250);
-    char format[32], text[256];
+    char format[40], text[256];
     char digits[16] = "";
     if (precision >= 0)
         snprintf(digits, sizeof digits, ".%d", (int)fmin(precision, 250));
@@ -295,18 +295,18 @@ static const char *parse_datetime(Converter *cv) {
     expect(cv, ')', "datetime");
     double seconds = floor(days * 86400 + 0.5) + 946684800; // from 1970
     if (!(fabs(seconds) < 1e15))
-        die_in(cv, start, "this date is out of range");
+        die_in(cv, start, "This date is out of range");
     time_t time = (time_t)seconds;
     struct tm utc;
     char text[512];
     if (!*format || !gmtime_r(&time, &utc))
-        die_in(cv, start, "cannot write this date");
+        die_in(cv, start, "Cannot write this date");
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wformat-nonliteral"
     size_t length = strftime(text, sizeof text, format, &utc);
 #pragma GCC diagnostic pop
     if (!length)
-        die_in(cv, start, "the date's format is not valid or its text too long");
+        die_in(cv, start, "The date's format is not valid or its text too long");
     return arena_strdup(cv->arena, text);
 }
 

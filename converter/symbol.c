@@ -146,12 +146,21 @@ static size_t read_subscript(Converter *cv, size_t size) {
     Loc loc = here(cv);
     double v = parse_float(cv);
     if (!(v >= -EPSILON))
-        die_at(&loc, "negative subscript %g", v);
+        die_at(&loc, "Negative subscript %g", v);
     if (v + EPSILON >= (double)size)
-        die_at(&loc, "array subscript out of range: %g, but the elements are 0 to %zu", v,
+        die_at(&loc, "Array subscript out of range: %g, but the elements are 0 to %zu", v,
                size - 1);
     expect(cv, ']', "array subscript");
     return (size_t)(v + EPSILON);
+}
+
+static void warn_deprecated(Converter *cv, const Token *token, Symbol *symbol) {
+    Loc loc = token_loc(cv, token);
+    if (symbol->deprecation)
+        warn_at(&loc, "%s", symbol->deprecation);
+    else
+        warn_at(&loc, "Identifier '%s' was declared deprecated", token->text);
+    symbol->deprecated = !symbol->deprecated_once;
 }
 
 Place resolve_place(Converter *cv, const Token *token, bool want_unset) {
@@ -160,6 +169,8 @@ Place resolve_place(Converter *cv, const Token *token, bool want_unset) {
         return place;
     place.value = place.symbol->target ? place.symbol->target : &place.symbol->value;
     place.array = place.symbol->target_array;
+    if (place.symbol->deprecated && !want_unset)
+        warn_deprecated(cv, token, place.symbol);
     for (const Token *next;
          place.value->type == VALUE_ARRAY && (next = raw_peek(cv)) && next->code == '[';) {
         Array *array = place.value->node;
@@ -174,7 +185,7 @@ Place resolve_place(Converter *cv, const Token *token, bool want_unset) {
         place.value = &array->items[index];
         if (place.value->type == VALUE_NONE && !want_unset) {
             Loc loc = token_loc(cv, token);
-            die_at(&loc, "attempt to access uninitialized array element %s[...]", token->text);
+            die_at(&loc, "Attempt to access uninitialized array element %s[...]", token->text);
         }
     }
     return place;
@@ -184,13 +195,13 @@ void place_assign(Converter *cv, const Place *place, const Value *value, const L
     (void)cv;
     ValueType old = place->value->type;
     if (old == VALUE_FUNCTION)
-        die_at(loc, "redeclaring functions is not allowed - #undef the function first");
+        die_at(loc, "Redeclaring functions is not allowed - #undef the function first");
     if (old == VALUE_MACRO || old == VALUE_FILE)
-        die_at(loc, "this name is a %s; #undef it first", value_type_name(old));
+        die_at(loc, "This name is a %s; #undef it first", value_type_name(old));
     if (place->array) {
         if (place->array->type != VALUE_NONE && place->array->type != value->type)
             die_at(loc,
-                   "attempted to redefine %s identifier as %s identifier: all elements of an "
+                   "Attempted to redefine %s identifier as %s identifier: all elements of an "
                    "array are of one type",
                    value_type_name(place->array->type), value_type_name(value->type));
         place->array->type = value->type;

@@ -130,7 +130,7 @@ _Noreturn static void die_data(Converter *cv, const Token *token, const char *wh
     loc.what = "read";
     if (token->code == TOK_ERROR)
         die_at(&loc, "%s", token->text);
-    die_at(&loc, "expected %s, %s found instead", what, token_describe(cv, token));
+    die_at(&loc, "Expected %s, %s found instead", what, token_describe(cv, token));
 }
 
 static double data_float(Converter *cv, UserFile *f, const Token *token) {
@@ -193,7 +193,7 @@ void run_read(Converter *cv) {
     Symbol *handle = expect_handle(cv, &f);
     if (f->writing) {
         Loc loc = token_loc(cv, cv->language->last);
-        die_at(&loc, "cannot read from '%s': it is open for writing only", f->name);
+        die_at(&loc, "Cannot read from '%s': it is open for writing only", f->name);
     }
     optional_comma(cv);
     bool ended = false;
@@ -268,7 +268,7 @@ void run_write(Converter *cv) {
     expect_handle(cv, &f);
     if (!f->writing) {
         Loc loc = token_loc(cv, cv->language->last);
-        die_at(&loc, "cannot write to '%s': it is open for reading only", f->name);
+        die_at(&loc, "Cannot write to '%s': it is open for reading only", f->name);
     }
     while (!accept(cv, ')')) {
         size_t format = 0, count = sizeof formats / sizeof *formats;

@@ -47,7 +47,7 @@ const Value *accept_value(Converter *cv, ValueType type) {
 static Array *new_array(Converter *cv, const Array *shape, const Loc *loc) {
     Language *l = cv->language;
     if (shape->count > MAX_ELEMENTS || l->elements + shape->count > MAX_ELEMENTS)
-        die_at(loc, "too many array elements: %zu here, %d in all are the limit", shape->count,
+        die_at(loc, "Too many array elements: %zu here, %d in all are the limit", shape->count,
                MAX_ELEMENTS);
     l->elements += shape->count;
     Array *array = ARENA_NEW(cv->arena, Array);
@@ -82,7 +82,7 @@ static void parse_initializer(Converter *cv, Array *array, int dimension, size_t
     for (size_t i = 0; i < array->sizes[dimension]; i++) {
         if (next_is(cv, '}')) {
             Loc loc = here(cv);
-            die_at(&loc, "insufficient number of initializers: %zu of %zu found", i,
+            die_at(&loc, "Insufficient number of initializers: %zu of %zu found", i,
                    array->sizes[dimension]);
         }
         if (dimension + 1 < array->dimensions) {
@@ -109,18 +109,18 @@ Array *parse_array(Converter *cv) {
     Loc loc = here(cv);
     while (accept(cv, '[')) {
         if (shape.dimensions == MAX_DIMENSIONS)
-            die_at(&loc, "too many array dimensions (%d are the limit)", MAX_DIMENSIONS);
+            die_at(&loc, "Too many array dimensions (%d are the limit)", MAX_DIMENSIONS);
         Loc at = here(cv);
         double size = parse_float(cv) + EPSILON;
         if (!(size >= 1))
-            die_at(&at, "invalid dimension size for an array: %g", size - EPSILON);
+            die_at(&at, "Invalid dimension size for an array: %g", size - EPSILON);
         if (size > MAX_ELEMENTS)
-            die_at(&at, "too many array elements: %.0f here, %d in all are the limit", size,
+            die_at(&at, "Too many array elements: %.0f here, %d in all are the limit", size,
                    MAX_ELEMENTS);
         shape.sizes[shape.dimensions++] = (size_t)size;
         shape.count *= (size_t)size;
         if (shape.count > MAX_ELEMENTS)
-            die_at(&at, "too many array elements: %zu here, %d in all are the limit", shape.count,
+            die_at(&at, "Too many array elements: %zu here, %d in all are the limit", shape.count,
                    MAX_ELEMENTS);
         expect(cv, ']', "array");
     }
@@ -195,9 +195,9 @@ static bool parse_named(Converter *cv, RvalueUse use, Value *out, Reference *ref
         Loc loc = token_loc(cv, token);
         die_at(&loc,
                use == RVALUE_ARGUMENT
-                   ? "undeclared identifier '%s': it cannot be passed to a macro before it "
+                   ? "Undeclared identifier '%s': it cannot be passed to a macro before it "
                      "has a value"
-                   : "undeclared identifier '%s': it has no value to assign",
+                   : "Undeclared identifier '%s': it has no value to assign",
                token->text);
     }
     Place place = *ahead;

@@ -47,6 +47,8 @@ static void read_block(Converter *cv, const char *where) {
             next_token(cv), parse_function(cv);
         else if (accept(cv, '<')) // may be a list of 10 or 35 coefficients
             continue;
+        else if (starts_string(cv))
+            parse_string(cv);
         else if (starts_color(cv))
             parse_color(cv);
         else if (starts_expression(cv))

@@ -1,0 +1,2 @@
+// 2:20 invalid dimension size
+#declare P = array[0];

@@ -1,0 +1,2 @@
+// 2:2 invalid context for #break
+#break

@@ -1,0 +1,2 @@
+// 2:11 '.' found instead
+#declare V.y = 1;

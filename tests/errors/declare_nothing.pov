@@ -1,0 +1,2 @@
+// 2:14 '{' found instead
+#declare A = { 1 };

@@ -1,0 +1,2 @@
+// 2:10 reserved words cannot be declared
+#declare sphere = 3;

@@ -1,0 +1,2 @@
+// 2:14 undeclared identifier 'C'
+#declare B = C;

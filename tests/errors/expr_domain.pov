@@ -1,0 +1,2 @@
+// 2:14 domain error in sqrt
+#declare A = sqrt(-1);

@@ -1,0 +1,2 @@
+// 2:16 '>' found instead
+#declare V = <1>;

@@ -1,0 +1,2 @@
+// 2:14 illegal random number generator
+#declare A = rand(3);

@@ -1,0 +1,2 @@
+// 2:19 string comparison operator
+#declare A = ("a" + "b");

@@ -1,0 +1,2 @@
+// 2:15 undeclared identifier 'Redd' found instead
+#declare A = (Redd);

@@ -1,0 +1,2 @@
+// 2:8 expected a file identifier
+#read (F, A)

@@ -1,0 +1,2 @@
+// 2:32 undeclared identifier 'g'
+#declare f = function(x) { x + g }

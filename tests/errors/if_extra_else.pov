@@ -1,0 +1,2 @@
+// 2:16 mis-matched '#else'
+#if (0) #else #else #end

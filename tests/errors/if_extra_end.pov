@@ -1,0 +1,2 @@
+// 2:2 mis-matched '#end'
+#end

@@ -1,0 +1,2 @@
+// 1:15 undeclared identifier 'Missing'
+#include "broken.inc"

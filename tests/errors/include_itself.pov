@@ -1,0 +1,2 @@
+// 2:10 too many nested include files
+#include "include_itself.pov"

@@ -1,0 +1,2 @@
+// 2:10 cannot open include file 'nope.inc'
+#include "nope.inc"

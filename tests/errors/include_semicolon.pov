@@ -1,0 +1,2 @@
+// 2:22 ';' found instead
+#include "colors.inc";

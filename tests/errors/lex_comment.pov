@@ -1,0 +1,3 @@
+// 3:1 comment never ends
+#declare A = 1;
+/* open /* closed */

@@ -1,0 +1,2 @@
+// 2:14 illegal escape
+#declare S = "\q";

@@ -1,0 +1,2 @@
+// 2:14 no end quote
+#declare S = "abc

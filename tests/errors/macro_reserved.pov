@@ -1,0 +1,2 @@
+// 2:10 'v' found instead
+#macro M(v) #end

@@ -1,0 +1,3 @@
+// 3:4 ';' found instead
+#macro M() #end
+M();

@@ -1,0 +1,2 @@
+// 2:1 undeclared identifier 'Import'
+Import foo

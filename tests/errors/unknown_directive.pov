@@ -1,0 +1,2 @@
+// 2:2 undeclared identifier 'foo' found after '#'
+#foo

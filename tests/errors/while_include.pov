@@ -1,0 +1,2 @@
+// 1:2 must end in the file
+#while (1) #include "half_loop.inc"

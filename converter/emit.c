@@ -212,8 +212,19 @@ static void check_bodies(Emitter *e, const ObjectNode *node) {
                  "clipped_by may cut this patch at a box in POV-Ray: here it is shown whole");
 }
 
+// Lights shine even out of an object that is left out.
+static void emit_lights(Emitter *e, const ObjectNode *node) {
+    for (const ObjectNode *child = node->first; child; child = child->next)
+        emit_lights(e, child);
+    if (node->light) {
+        emit_gaps(e, node->light->gaps);
+        array_push(&e->lights, node->light->light);
+    }
+}
+
 static uint32_t emit_object(Emitter *e, const ObjectNode *node, const Inherited *from) {
     if (!node->modelled) {
+        emit_lights(e, node);
         emit_gap(e, node->loc,
                  arena_printf(e->cv->arena,
                               "'%s' is not modelled: the object is missing in the picture",

@@ -45,6 +45,9 @@ static void checker_lists(void **state) {
     assert_color(p.entries[0].color, 1, 0, 0, 0, 0);
     assert_color(p.entries[1].color, 1, 1, 1, 0, 0.5);
     assert_near(p.pattern.warps[0].transform.m[2][2], 2);
+    p = pigment("", "pigment { checker 1, <0,0.5,1> }"); // width 5: filter and transmit too
+    assert_color(p.entries[0].color, 1, 1, 1, 1, 1);
+    assert_color(p.entries[1].color, 0, 0.5, 1, 0, 0);
     Scene *s = scene_of("sphere { 0, 1 pigment { checker pigment { rgb x } pigment { gradient y } "
                         "frequency 3 } }");
     const Pigment *list = pigment_of(s, root(s, 0), 0);
@@ -258,6 +261,14 @@ static void middle_colors(void **state) {
     assert_silent("sphere { 0, 1 pigment { rgb 1 } normal { bumps 0 } }");
 }
 
+static void missing_patterns(void **state) {
+    (void)state;
+    assert_dies("sphere { 0, 1 normal { scale 2 } }", "a normal needs a pattern");
+    assert_dies("sphere { 0, 1 texture { gradient x } }", "needs a texture_map");
+    assert_silent("sphere { 0, 1 pigment { scale 2 } texture { } }");
+    assert_dies("sphere { 0, 1 pigment { scale 2 gradient x } }", "2:33: error");
+}
+
 static void equal_textures_are_one(void **state) {
     (void)state;
     Scene *s = scene_of("#declare T = texture { pigment { checker rgb x rgb y } }\n"
@@ -366,6 +377,7 @@ int main(void) {
         cmocka_unit_test(finishes),
         cmocka_unit_test(materials),
         cmocka_unit_test(middle_colors),
+        cmocka_unit_test(missing_patterns),
         cmocka_unit_test(equal_textures_are_one),
         cmocka_unit_test(all_patterns_are_read),
     };

@@ -175,8 +175,8 @@ static void check_message(const char *path, const char *message) {
 
 static void test_errors(void **state) {
     (void)state;
-    char *paths[200];
-    size_t count = list_programs("tests/errors", paths, 200);
+    char *paths[400];
+    size_t count = list_programs("tests/errors", paths, 400);
     for (size_t i = 0; i < count; i++) {
         char *message = run_file(paths[i]);
         check_message(paths[i], message);
@@ -378,11 +378,11 @@ static size_t mutate(Rng *r, const char *text, size_t size, char *out, size_t ro
 
 static void test_mutations(void **state) {
     (void)state;
-    char *paths[200], out_path[256];
+    char *paths[500], out_path[256];
     setenv("QIPOV_MAX_TOKENS", "30000", 1);
     snprintf(out_path, sizeof out_path, "%s/mutation.pov", folder);
     size_t count = list_programs("tests/sdl", paths, 100), right = 0, wrong = 0;
-    count += list_programs("tests/errors", paths + count, 100);
+    count += list_programs("tests/errors", paths + count, 400);
     for (size_t i = 0; i < count; i++) {
         if (strstr(paths[i], "includes.pov") || strstr(paths[i], "endless"))
             continue; // long, and run above

@@ -77,7 +77,7 @@ static void color_maps(void **state) {
     assert_color(p.entries[4].color, 0.5, 0, 0, 0, 0);
     assert_color(p.entries[5].color, 0, 1, 1, 1, 1); // T6
     assert_dies("sphere { 0, 1 pigment { gradient x color_map { [0 <1,0,0>] [1 rgb 1] } } }",
-                "2:51: error: expected a colour"); // T41
+                "2:51: error: Expected a colour"); // T41
     assert_dies("sphere { 0, 1 pigment { gradient x color_map { [0 rgb 1, ] } } }", "']'");
     assert_dies("sphere { 0, 1 pigment { <1,0,0> } }", "error");
 }

@@ -220,7 +220,8 @@ int function_parameter_count(const Function *f);
 
 // If the next token begins a statement that makes a value of VALUE_PIGMENT and after (a keyword
 // such as `pigment`, `sphere`, `transform`, or the name of such a value), parses it. False: it does
-// not.
+// not. Also `pattern { ... }`, the body of a function, as a VALUE_PIGMENT. The node of a
+// VALUE_TRANSFORM is a Transform.
 bool parse_statement_value(Converter *cv, Value *out);
 // Everything at top level until the end of the main file. For `declare` and so on without '#':
 // accept_old_directive.

@@ -43,7 +43,14 @@ typedef struct {
     };
 } Instruction;
 
-typedef enum { BODY_FORMULA, BODY_INTERNAL, BODY_TRANSFORM, BODY_SPLINE, BODY_PIGMENT, BODY_PATTERN } BodyKind;
+typedef enum {
+    BODY_FORMULA,
+    BODY_INTERNAL,
+    BODY_TRANSFORM,
+    BODY_SPLINE,
+    BODY_PIGMENT,
+    BODY_PATTERN
+} BodyKind;
 
 struct Function {
     Loc loc; // of its body

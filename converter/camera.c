@@ -102,10 +102,15 @@ static void parse_mesh_camera(Converter *cv) {
 static void parse_type(Converter *cv, Reader *reader) {
     const Token *token = next_token(cv);
     reader->type = token->code;
+    reader->node->gaps = NULL; // of another type before
     reader->node->camera.type =
         token->code == KW_orthographic ? CAMERA_ORTHOGRAPHIC : CAMERA_PERSPECTIVE;
-    if (token->code == KW_cylinder)
-        parse_float(cv);
+    if (token->code == KW_cylinder) {
+        double kind = parse_float(cv);
+        Loc loc = token_loc(cv, token);
+        if (!reader->old && !(kind >= 1 && kind < 5))
+            die_at(&loc, "a cylinder camera is of type 1, 2, 3 or 4");
+    }
     if (token->code == KW_mesh_camera)
         parse_mesh_camera(cv);
     if (token->code != KW_perspective && token->code != KW_orthographic)
@@ -282,7 +287,7 @@ CameraNode *parse_camera_block(Converter *cv) {
                      .old = old,
                      .transform = transform_identity()};
     reader.node->gaps = NULL;
-    if (!old && is_type(peek_token(cv)->code))
+    while (!old && is_type(peek_token(cv)->code))
         parse_type(cv, &reader);
     while (parse_item(cv, &reader)) {
     }

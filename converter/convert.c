@@ -5,7 +5,6 @@
 
 #include "converter/language.h"
 
-#include <ctype.h>
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -14,7 +13,7 @@
 
 #ifdef HOSTILE
 static const uint64_t DEFAULT_TOKENS = 5000000;
-static const size_t DEFAULT_BYTES = (size_t)2 << 30;
+static const size_t DEFAULT_BYTES = (size_t)160 << 20;
 #else
 static const uint64_t DEFAULT_TOKENS = 200000000;
 static const size_t DEFAULT_BYTES = (size_t)4 << 30;
@@ -95,13 +94,6 @@ static Converter *start(const RenderOptions *options, Arena *arena) {
     return cv;
 }
 
-static bool is_blank(const Source *source) {
-    size_t i = 0;
-    while (i < source->size && isspace((unsigned char)source->text[i]))
-        i++;
-    return i == source->size;
-}
-
 Scene *convert_scene(const RenderOptions *options, Arena *arena) {
     if (!options->input)
         die("no input file");
@@ -110,8 +102,6 @@ Scene *convert_scene(const RenderOptions *options, Arena *arena) {
     declare_initial(cv);
     const Source *source = source_open(cv, options->input, FILE_SCENE, &(Loc){0});
     const Loc start_of_file = {.file = source->name, .line = 1, .column = 1};
-    if (is_blank(source))
-        die_at(&start_of_file, "the file is empty: there is no scene in it");
     cv->utf8 = source->utf8;
     push_file(cv, source, NULL);
     parse_scene_statements(cv);

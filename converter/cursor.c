@@ -136,7 +136,8 @@ Loc here(Converter *cv) { return token_loc(cv, peek_token(cv)); }
 void die_expected(Converter *cv, const char *what) {
     const Token *token = peek_token(cv);
     Loc loc = token_loc(cv, token);
-    die_at(&loc, "Expected %s, %s found instead", what, token_describe(cv, token));
+    die_at(&loc, "Expected %s, %s found instead%s", what, token_describe(cv, token),
+           spelling_hint(cv, token));
 }
 
 // ---- tokens -----------------------------------------------------------------------------------
@@ -300,10 +301,11 @@ void expect(Converter *cv, int code, const char *where) {
         return;
     const Token *found = peek_token(cv);
     Loc loc = token_loc(cv, found);
+    const char *description = token_describe(cv, found), *hint = spelling_hint(cv, found);
     if (code == '}')
-        die_at(&loc, "No matching } in '%s', %s found instead", where, token_describe(cv, found));
-    die_at(&loc, "Expected %s in '%s', %s found instead", spelling(cv, code), where,
-           token_describe(cv, found));
+        die_at(&loc, "No matching } in '%s', %s found instead%s", where, description, hint);
+    die_at(&loc, "Expected %s in '%s', %s found instead%s", spelling(cv, code), where, description,
+           hint);
 }
 
 void optional_comma(Converter *cv) { accept(cv, ','); }

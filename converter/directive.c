@@ -185,8 +185,8 @@ static void run_message(Converter *cv, const Token *word) {
 
 _Noreturn static void die_unknown(Converter *cv, const Token *hash, const Token *word) {
     Loc loc = token_loc(cv, word ? word : hash);
-    die_at(&loc, "Expected 'object or directive', %s found after '#'",
-           word ? token_describe(cv, word) : "end of file");
+    die_at(&loc, "Expected 'object or directive', %s found after '#'%s",
+           word ? token_describe(cv, word) : "end of file", word ? spelling_hint(cv, word) : "");
 }
 
 static void run_plain(Converter *cv, const Token *word) {

@@ -212,8 +212,19 @@ static void check_bodies(Emitter *e, const ObjectNode *node) {
                  "clipped_by may cut this patch at a box in POV-Ray: here it is shown whole");
 }
 
+// Lights shine even out of an object that is left out.
+static void emit_lights(Emitter *e, const ObjectNode *node) {
+    for (const ObjectNode *child = node->first; child; child = child->next)
+        emit_lights(e, child);
+    if (node->light) {
+        emit_gaps(e, node->light->gaps);
+        array_push(&e->lights, node->light->light);
+    }
+}
+
 static uint32_t emit_object(Emitter *e, const ObjectNode *node, const Inherited *from) {
     if (!node->modelled) {
+        emit_lights(e, node);
         emit_gap(e, node->loc,
                  arena_printf(e->cv->arena,
                               "'%s' is not modelled: the object is missing in the picture",
@@ -300,16 +311,6 @@ static void keep_pools(Emitter *e) {
     KEEP(e, scene, interiors, interior_count);
 }
 
-// POV-Ray renders a scene without objects: a sky may be all that is wanted. Where there is not even
-// that, the picture would be black, and the file is not what its author thinks it is.
-static void no_objects(const Scene *scene, const char *file) {
-    const Color *b = &scene->settings.background;
-    if (!scene->has_sky_sphere && b->r == 0 && b->g == 0 && b->b == 0)
-        die("'%s' shows no objects, no sky_sphere and no background: there is nothing to render",
-            file);
-    warn("'%s' shows no objects", file);
-}
-
 Scene *emit_scene(Converter *cv) {
     Emitter *e = ARENA_NEW(cv->arena, Emitter);
     e->cv = cv;
@@ -321,7 +322,7 @@ Scene *emit_scene(Converter *cv) {
     emit_sky(e);
     keep_pools(e);
     if (e->scene->root_count == 0)
-        no_objects(e->scene, cv->options->input);
+        warn("'%s' shows no objects", cv->options->input);
     scene_collect_requires(e->scene, cv->arena);
     scene_validate(e->scene, cv->options->input);
     return e->scene;

@@ -24,6 +24,7 @@ typedef struct {
     uint32_t names[MAX_PARAMETERS];
     uint32_t local_names[MAX_LOCALS];
     int local_count; // that are visible
+    bool listed;     // there is a list of parameters
 } Compiler;
 
 static void parse_or(Compiler *c);
@@ -361,6 +362,7 @@ static void parse_parameters(Compiler *c) {
             c->codes[f->parameter_count] = axes[f->parameter_count];
         return;
     }
+    c->listed = true;
     do {
         const Token *token = peek_token(cv);
         bool fresh = token->code == TOK_IDENTIFIER && !ahead_place(cv);
@@ -380,14 +382,36 @@ static void parse_parameters(Compiler *c) {
     } while (!accept(cv, ')'));
 }
 
+// How many arguments the built-in functions take: x, y, z and their own.
+static const unsigned char internal_counts[] = {
+    8, 8, 8, 8, 5, 5, 8, 7, 5, 4, 7, 4, 4, 4,  4, 9, 9, 6, 4, 7, 6, 9, 4, 4,  13, 10, 10,
+    4, 4, 9, 4, 6, 7, 6, 9, 4, 4, 7, 4, 9, 8,  4, 4, 4, 7, 4, 6, 3, 4, 4, 10, 8,  9,  4,
+    4, 4, 6, 3, 9, 9, 7, 4, 8, 7, 9, 4, 7, 10, 5, 3, 5, 6, 4, 4, 5, 9, 3, 3,  4,
+};
+
+// internal ( F )
+static void parse_internal(Compiler *c) {
+    Converter *cv = c->cv;
+    Function *f = c->f;
+    f->kind = BODY_INTERNAL;
+    expect(cv, '(', "internal");
+    const Token *start = peek_token(cv);
+    double number = parse_float(cv);
+    if (!(number >= 0 && number < sizeof internal_counts)) {
+        Loc loc = token_loc(cv, start);
+        die_at(&loc, "Function 'internal(%g)' does not exist", number);
+    }
+    f->internal = (int)number;
+    if (!c->listed)
+        f->parameter_count = internal_counts[f->internal];
+    expect(cv, ')', "internal");
+}
+
 static bool parse_special(Compiler *c) {
     Converter *cv = c->cv;
     Function *f = c->f;
     if (accept(cv, KW_internal)) {
-        f->kind = BODY_INTERNAL;
-        expect(cv, '(', "internal");
-        f->internal = (int)fmin(fmax(parse_float(cv), 0), 1000);
-        expect(cv, ')', "internal");
+        parse_internal(c);
     } else if (accept(cv, KW_spline)) {
         f->kind = BODY_SPLINE;
         f->parameter_count = 1;

@@ -14,13 +14,14 @@ enum {
     MAX_PARAMETERS = 256,
     MAX_IDENTIFIER = 4096,
     MAX_STRING = 1 << 20,
-    MAX_ELEMENTS = 10000000, // of all arrays together
 #ifdef HOSTILE
     MAX_LEVEL = 450,
     MAX_CALLS = 250,
+    MAX_ELEMENTS = 1000000, // of all arrays together
 #else
     MAX_LEVEL = 1200,
     MAX_CALLS = 500,
+    MAX_ELEMENTS = 10000000,
 #endif
 };
 
@@ -66,6 +67,10 @@ struct Symbol {
 uint32_t name_intern(Converter *cv, const char *text, size_t length);
 const char *name_text(const Converter *cv, uint32_t name);
 Symbol *name_symbol(const Converter *cv, uint32_t name); // the innermost, or NULL
+uint32_t name_count(const Converter *cv);                // the numbers are 1 to this - 1
+// hint.c: what an undeclared identifier may have meant, in parentheses and with a blank before it;
+// else "".
+const char *spelling_hint(Converter *cv, const Token *token);
 
 int scope_level(const Converter *cv); // 0: global
 void scope_enter(Converter *cv);

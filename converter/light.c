@@ -161,13 +161,15 @@ static bool parse_rest(Converter *cv, LightNode *node, const Token *token) {
     }
 }
 
-// All but transforms and photons, which are modifiers of every object.
 void parse_light_items(Converter *cv, ObjectNode *object) {
     object_unshare(cv, object);
     for (;;) {
         const Token *token = peek_token(cv);
-        if (!parse_kind(cv, object->light, token) && !parse_number(cv, object->light, token) &&
-            !parse_rest(cv, object->light, token) && !parse_object_modifier(cv, object))
+        Move move;
+        if (parse_move(cv, &move))
+            object_move(cv, object, &move);
+        else if (!parse_kind(cv, object->light, token) && !parse_number(cv, object->light, token) &&
+                 !parse_rest(cv, object->light, token) && !parse_photons_modifier(cv))
             return;
     }
 }

@@ -266,19 +266,23 @@ static const void *parse_list_block(Converter *cv, PatternUse use) {
     return NULL;
 }
 
+static bool starts_list_color(Converter *cv, PatternUse use) {
+    return (use == USE_PIGMENT || use == USE_DENSITY) &&
+           (starts_color(cv) || starts_expression(cv));
+}
+
 // { C }* or { pigment{} }* (texture{}, normal{}, density{}); the rest comes from the defaults.
 // NULL: not one item stands there.
 const MapNode *parse_pattern_list(Converter *cv, PatternUse use, const PatternInfo *info) {
     static const int keywords[] = {KW_pigment, KW_normal, KW_texture, KW_density};
     static const MapKind kinds[] = {MAP_PIGMENT, MAP_NORMAL, MAP_TEXTURE, MAP_DENSITY};
-    bool colors_fit = use == USE_PIGMENT || use == USE_DENSITY;
     uint32_t limit = (uint32_t)info->list;
     ItemList list = {0};
     optional_comma(cv);
-    MapKind kind = colors_fit && starts_color(cv) ? MAP_COLOR : kinds[use];
+    MapKind kind = starts_list_color(cv, use) ? MAP_COLOR : kinds[use];
     while (list.count < limit) {
         MapItem item = {.value = (float)list.count};
-        if (kind == MAP_COLOR && starts_color(cv))
+        if (kind == MAP_COLOR && starts_list_color(cv, use))
             item.color = parse_color(cv);
         else if (kind != MAP_COLOR && accept(cv, keywords[use]))
             item.node = parse_list_block(cv, use);

@@ -102,19 +102,21 @@ static void parse_photons(Converter *cv) {
     expect(cv, '}', "photons");
 }
 
-static bool parse_light_control(Converter *cv) {
-    if (accept(cv, KW_photons)) {
-        parse_photons(cv);
-        return true;
-    }
-    if (accept(cv, KW_radiosity)) {
-        expect(cv, '{', "radiosity");
-        if (accept(cv, KW_importance))
-            parse_float(cv);
-        expect(cv, '}', "radiosity");
-        return true;
-    }
-    return false;
+bool parse_photons_modifier(Converter *cv) {
+    if (!accept(cv, KW_photons))
+        return false;
+    parse_photons(cv);
+    return true;
+}
+
+static bool parse_radiosity_modifier(Converter *cv) {
+    if (!accept(cv, KW_radiosity))
+        return false;
+    expect(cv, '{', "radiosity");
+    if (accept(cv, KW_importance))
+        parse_float(cv);
+    expect(cv, '}', "radiosity");
+    return true;
 }
 
 // ---- bounded_by, clipped_by
@@ -216,7 +218,7 @@ static bool parse_surface(Converter *cv, ObjectNode *node) {
     }
 }
 
-bool parse_object_modifier(Converter *cv, ObjectNode *node) {
+static bool parse_object_modifier(Converter *cv, ObjectNode *node) {
     const Token *token = peek_token(cv);
     Move move;
     if (parse_move(cv, &move)) {
@@ -224,7 +226,8 @@ bool parse_object_modifier(Converter *cv, ObjectNode *node) {
         return true;
     }
     if (parse_surface(cv, node) || parse_flag(cv, node, token->code) ||
-        parse_rare_flag(cv, node, token) || parse_light_control(cv) || parse_bound(cv, node))
+        parse_rare_flag(cv, node, token) || parse_photons_modifier(cv) ||
+        parse_radiosity_modifier(cv) || parse_bound(cv, node))
         return true;
     if (node->keyword == KW_light_group && accept(cv, KW_global_lights)) {
         parse_optional_bool(cv);

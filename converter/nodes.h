@@ -253,8 +253,7 @@ void object_add_child(Converter *cv, ObjectNode *parent, ObjectNode *child);
 void object_unshare(Converter *cv, ObjectNode *object);
 void object_move(Converter *cv, ObjectNode *object, Move *move);
 void object_invert(Converter *cv, ObjectNode *object);
-// If the next token is a modifier, reads it.
-bool parse_object_modifier(Converter *cv, ObjectNode *object);
+bool parse_photons_modifier(Converter *cv); // photons { ... } of an object or a light
 // All modifiers; dies if a rule that holds at the end is broken.
 void parse_object_modifiers(Converter *cv, ObjectNode *object);
 
@@ -263,6 +262,7 @@ typedef void ParseShape(Converter *cv, ObjectNode *object);
 ParseShape *shape_parser(int keyword);       // shapes.c, patch.c; NULL: not one of theirs
 ParseShape *shape_other_parser(int keyword); // shapes_other.c
 ParseShape parse_patch_data;
+bool shape_is_finite(const Object *object); // are the numbers that were read finite?
 void shape_move(ObjectNode *object, const Move *move);
 bool keyword_is_csg(int keyword);
 void parse_csg_data(Converter *cv, ObjectNode *object);

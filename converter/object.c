@@ -149,7 +149,7 @@ static void invert_csg(Converter *cv, ObjectNode *object) {
     bool becomes_union = object->keyword == KW_intersection || object->keyword == KW_difference;
     object_unshare(cv, object);
     for (ObjectNode *child = object->first; child; child = child->next)
-        if (!child->surface)
+        if (!child->surface && !child->light)
             object_invert(cv, child);
     object->keyword = becomes_union ? KW_union : KW_intersection;
     object->modelled = becomes_union;
@@ -209,6 +209,10 @@ static ObjectNode *parse_data(Converter *cv, const Token *token) {
         shape_parser(code)(cv, object);
     else
         shape_other_parser(code)(cv, object);
+    if (object->modelled && !object->light && !shape_is_finite(&object->object)) {
+        Loc loc = token_loc(cv, token);
+        die_at(&loc, "a number of this %s is not finite", token->text);
+    }
     return object;
 }
 
@@ -223,9 +227,10 @@ ObjectNode *parse_object(Converter *cv) {
     next_token(cv);
     expect(cv, '{', token->text);
     ObjectNode *object = parse_data(cv, token);
-    if (object->light)
+    if (token->code == KW_light_source && object->light)
         parse_light_items(cv, object);
-    parse_object_modifiers(cv, object);
+    else
+        parse_object_modifiers(cv, object);
     if (!next_is(cv, '}') && starts_statement(peek_token(cv)->code))
         die_expected(cv, arena_printf(cv->arena, "a modifier or '}' in '%s'", token->text));
     expect(cv, '}', token->text);

@@ -33,6 +33,16 @@ static int parse_limited(Converter *cv, const Token *token, int low, int high) {
     return used;
 }
 
+static void parse_noise_generator(Converter *cv, const Token *token) {
+    double value = parse_float(cv);
+    if (!(value >= 1 && value < 4)) {
+        Loc loc = token_loc(cv, token);
+        die_at(&loc, "noise_generator must be 1, 2 or 3");
+    }
+    cv->noise_generator = (int)value;
+    cv->noise_generator_set = true;
+}
+
 static void parse_charset(Converter *cv) {
     if (accept(cv, KW_utf8)) {
         cv->utf8 = true;
@@ -166,8 +176,7 @@ bool parse_number_setting(Converter *cv, const Token *token) {
         return true;
     case KW_noise_generator:
         next_token(cv);
-        cv->noise_generator = parse_limited(cv, token, 1, 3);
-        cv->noise_generator_set = true;
+        parse_noise_generator(cv, token);
         return true;
     case KW_mm_per_unit:
     case KW_max_intersections: // without effect

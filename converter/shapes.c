@@ -26,11 +26,24 @@ static void parse_plane(Converter *cv, ObjectNode *object) {
     plane->distance = parse_float(cv);
 }
 
+// With a negative radius POV-Ray shows the same sphere, its outside turned in.
 static void parse_sphere(Converter *cv, ObjectNode *object) {
     SphereShape *sphere = &object->object.shape.sphere;
     sphere->center = parse_vector(cv);
     optional_comma(cv);
-    sphere->radius = parse_float(cv);
+    double radius = parse_float(cv);
+    sphere->radius = fabs(radius);
+    object->object.inverse = radius < 0;
+}
+
+static double parse_radius(Converter *cv, const char *what) {
+    const Token *token = peek_token(cv);
+    double radius = parse_float(cv);
+    if (radius < 0) {
+        Loc loc = token_loc(cv, token);
+        die_at(&loc, "a radius of the %s is negative", what);
+    }
+    return radius;
 }
 
 static void parse_box(Converter *cv, ObjectNode *object) {
@@ -38,6 +51,10 @@ static void parse_box(Converter *cv, ObjectNode *object) {
     optional_comma(cv);
     Vec3 b = parse_vector(cv);
     object->object.shape.box = (BoxShape){vec_min(a, b), vec_max(a, b)};
+    if (!vec_is_finite(a)) // NaN gets lost in comparisons
+        object->object.shape.box.low = a;
+    if (!vec_is_finite(b))
+        object->object.shape.box.high = b;
 }
 
 static void check_axis(Converter *cv, const Token *token, const ConeShape *cone, const char *what) {
@@ -54,7 +71,7 @@ static void parse_cylinder(Converter *cv, ObjectNode *object) {
     optional_comma(cv);
     cone->apex = parse_vector(cv);
     optional_comma(cv);
-    cone->base_radius = cone->apex_radius = parse_float(cv);
+    cone->base_radius = cone->apex_radius = fabs(parse_float(cv));
     cone->open = accept(cv, KW_open);
     check_axis(cv, token, cone, "cylinder");
 }
@@ -64,11 +81,11 @@ static void parse_cone(Converter *cv, ObjectNode *object) {
     ConeShape *cone = &object->object.shape.cone;
     cone->base = parse_vector(cv);
     optional_comma(cv);
-    cone->base_radius = parse_float(cv);
+    cone->base_radius = parse_radius(cv, "cone");
     optional_comma(cv);
     cone->apex = parse_vector(cv);
     optional_comma(cv);
-    cone->apex_radius = parse_float(cv);
+    cone->apex_radius = parse_radius(cv, "cone");
     cone->open = accept(cv, KW_open);
     check_axis(cv, token, cone, "cone");
     if (fabs(cone->apex_radius - cone->base_radius) < EQUAL)
@@ -77,9 +94,9 @@ static void parse_cone(Converter *cv, ObjectNode *object) {
 
 static void parse_torus(Converter *cv, ObjectNode *object) {
     TorusShape *torus = &object->object.shape.torus;
-    torus->major = parse_float(cv);
+    torus->major = parse_radius(cv, "torus");
     optional_comma(cv);
-    torus->minor = parse_float(cv);
+    torus->minor = parse_radius(cv, "torus");
 }
 
 static void parse_disc(Converter *cv, ObjectNode *object) {
@@ -88,10 +105,10 @@ static void parse_disc(Converter *cv, ObjectNode *object) {
     optional_comma(cv);
     disc->normal = parse_direction(cv, "disc");
     optional_comma(cv);
-    disc->radius = parse_float(cv);
+    disc->radius = fabs(parse_float(cv));
     optional_comma(cv);
     if (starts_expression(cv))
-        disc->hole = parse_float(cv);
+        disc->hole = fabs(parse_float(cv));
 }
 
 static void parse_triangle(Converter *cv, ObjectNode *object) {
@@ -100,6 +117,38 @@ static void parse_triangle(Converter *cv, ObjectNode *object) {
             optional_comma(cv);
         object->object.shape.triangle.p[i] = parse_vector(cv);
     }
+}
+
+bool shape_is_finite(const Object *object) {
+    switch (object->type) {
+    case OBJECT_PLANE:
+        return isfinite(object->shape.plane.distance);
+    case OBJECT_SPHERE:
+        return vec_is_finite(object->shape.sphere.center) && isfinite(object->shape.sphere.radius);
+    case OBJECT_BOX:
+        return vec_is_finite(object->shape.box.low) && vec_is_finite(object->shape.box.high);
+    case OBJECT_CYLINDER:
+    case OBJECT_CONE: {
+        const ConeShape *cone = &object->shape.cone;
+        return vec_is_finite(cone->base) && vec_is_finite(cone->apex) &&
+               isfinite(cone->base_radius) && isfinite(cone->apex_radius);
+    }
+    case OBJECT_TORUS:
+        return isfinite(object->shape.torus.major) && isfinite(object->shape.torus.minor);
+    case OBJECT_DISC: {
+        const DiscShape *disc = &object->shape.disc;
+        return vec_is_finite(disc->center) && isfinite(disc->radius) && isfinite(disc->hole);
+    }
+    case OBJECT_TRIANGLE: {
+        const Vec3 *p = object->shape.triangle.p;
+        return vec_is_finite(p[0]) && vec_is_finite(p[1]) && vec_is_finite(p[2]);
+    }
+    case OBJECT_PATCH: // checked point by point
+    case OBJECT_UNION:
+    case OBJECT_MERGE:
+        break;
+    }
+    return true;
 }
 
 ParseShape *shape_parser(int keyword) {

@@ -89,6 +89,8 @@ Symbol *name_symbol(const Converter *cv, uint32_t name) {
     return table(cv)->names.items[name].innermost;
 }
 
+uint32_t name_count(const Converter *cv) { return (uint32_t)table(cv)->names.count; }
+
 int scope_level(const Converter *cv) { return (int)table(cv)->scopes.count - 1; }
 
 void scope_enter(Converter *cv) { list_push(cv, &table_made(cv)->scopes, NULL); }

@@ -34,6 +34,8 @@ const PatternNode *parse_normal_body(Converter *cv, const PatternNode *base) {
                               : pattern_node_default();
     node.block_loc = keep_place(cv, token);
     parse_pattern(cv, USE_NORMAL, &node);
+    if (node.info->keyword == 0)
+        die_at(node.block_loc, "a normal needs a pattern");
     return copy_pattern(cv, &node);
 }
 
@@ -206,8 +208,12 @@ static const TextureNode *parse_patterned(Converter *cv, const TextureNode *base
     TextureNode node = *base;
     node.pattern = pattern_node_default();
     parse_pattern(cv, USE_TEXTURE, &node.pattern);
-    if (node.pattern.info->keyword == 0)
+    const PatternInfo *info = node.pattern.info;
+    if (info->keyword == 0)
         return base;
+    if (!info->list && (!node.pattern.map || node.pattern.map->kind != MAP_TEXTURE))
+        die_at(node.pattern.loc, "a texture with '%s' needs a texture_map",
+               keyword_name(info->keyword));
     node.below = NULL;
     return copy_texture(cv, &node);
 }

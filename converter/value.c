@@ -196,9 +196,9 @@ static bool parse_named(Converter *cv, RvalueUse use, Value *out, Reference *ref
         die_at(&loc,
                use == RVALUE_ARGUMENT
                    ? "Undeclared identifier '%s': it cannot be passed to a macro before it "
-                     "has a value"
-                   : "Undeclared identifier '%s': it has no value to assign",
-               token->text);
+                     "has a value%s"
+                   : "Undeclared identifier '%s': it has no value to assign%s",
+               token->text, spelling_hint(cv, token));
     }
     Place place = *ahead;
     if (value_width(place.value->type) || place.value->type == VALUE_FUNCTION ||

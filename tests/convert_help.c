@@ -155,7 +155,7 @@ void assert_vec(Vec3 v, double x, double y, double z) {
 
 void assert_dies(const char *text, const char *fragment) {
     Converted result = convert_text(text);
-    if (result.scene || !strstr(result.message, fragment))
+    if (result.scene || !strcasestr(result.message, fragment))
         fail_msg("%s\nexpected \"%s\", got: %s", text, fragment,
                  result.scene ? "no error" : result.message);
 }

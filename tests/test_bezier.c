@@ -229,6 +229,25 @@ static void normals_are_continuous_at_the_pole(void **state) {
     }
 }
 
+// Along a ruling of a cone the normal is the same, down to the apex and to the last digits.
+static void normals_keep_their_digits_at_an_apex(void **state) {
+    (void)state;
+    Bezier lid, cone = {.du = 3, .dv = 3};
+    teapot_lid(&lid);
+    for (int i = 0; i < 4; i++)
+        for (int j = 0; j < 4; j++) {
+            Vec3 p = lid.p[12 + j];
+            cone.p[4 * i + j] = vec3(5.0 + p.x * i / 3.0, p.y * i / 3.0, 7.0 - i / 3.0);
+        }
+    Rng rng = {4};
+    for (double u = 0.3; u > 1e-14; u *= 0.1) {
+        double v = rng_unit(&rng);
+        Vec3 want = bezier_normal(&cone, 0.5, v, vec3(1, 0, 0));
+        // 2^-36 is what the quickest way to a normal may lose.
+        assert_true(distance(bezier_normal(&cone, u, v, vec3(1, 0, 0)), want) < 3e-11);
+    }
+}
+
 // Corners and edges where control points coincide, one way or another: against the product of
 // tangents well inside, on the diagonal.
 static void coinciding_points(void **state) {
@@ -314,6 +333,7 @@ int main(void) {
         cmocka_unit_test(regular_normals),
         cmocka_unit_test(collapsed_normals),
         cmocka_unit_test(normals_are_continuous_at_the_pole),
+        cmocka_unit_test(normals_keep_their_digits_at_an_apex),
         cmocka_unit_test(coinciding_points),
         cmocka_unit_test(curves_and_points_face_the_viewer),
         cmocka_unit_test(normals_at_any_scale),

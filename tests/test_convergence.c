@@ -119,7 +119,9 @@ static void converges(void **state) {
     const Row *row = *state;
     const char *scratch = scratch_folder();
     assert_int_equal(
-        run_command(NULL, "rm -rf '%s/c' && cp -r '%s' '%s/c'", scratch, row->folder, scratch), 0);
+        run_command(NULL, "rm -rf '%s/c' && cp -r '%s' '%s/c' && cp scenes/teapot/*.inc '%s/c'",
+                    scratch, row->folder, scratch, scratch),
+        0);
     char scene_path[4400];
     snprintf(scene_path, sizeof scene_path, "%s/c/%s", scratch, row->scene);
 

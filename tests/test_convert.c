@@ -75,6 +75,20 @@ static void other_shapes(void **state) {
     assert_near(root(s, 7)->shape.disc.hole, 1);
 }
 
+static void odd_numbers(void **state) {
+    (void)state;
+    Scene *s = scene_of("sphere { 0, -2 } cylinder { 0, y, -1 } disc { 0, y, -3 }");
+    assert_near(root(s, 0)->shape.sphere.radius, 2);
+    assert_true(root(s, 0)->inverse);
+    assert_near(root(s, 1)->shape.cone.base_radius, 1);
+    assert_near(root(s, 2)->shape.disc.radius, 3);
+    assert_dies("torus { 1, -1 }", "2:12: error: a radius of the torus is negative");
+    assert_dies("sphere { 0, 1e400 }", "2:1: error: a number of this sphere is not finite");
+    assert_dies("box { <0, 1e400 - 1e400, 0>, 1 }", "not finite");
+    assert_dies("cylinder { x, x, 1 }", "are the same point");
+    assert_dies("plane { 0, 1 }", "must have a length");
+}
+
 static void transform_blocks(void **state) {
     (void)state;
     Scene *s = scene_of("#declare T = transform { translate x inverse scale 2 }"
@@ -304,7 +318,8 @@ static void lights_leave_their_unions(void **state) {
     assert_true(root(s, 1)->no_shadow);
     assert_dies("light_source { <1,2,3> rgb 1 radius 5 spotlight }", "'radius' needs spotlight");
     assert_dies("light_source { 0, 1 point_at y }", "'point_at' needs spotlight");
-    assert_dies("merge { light_source { 0, 1 } sphere { 0, 1 } }", "cannot be part of 'merge'");
+    s = scene_of("difference { light_source { 0, 1 } sphere { 0, 1 } translate x }");
+    assert_vec(s->lights[0].location, 1, 0, 0);
     assert_warns("light_source { 0, 1 spotlight radius 10 } sphere { 0, 1 }", "spotlight is not");
 }
 
@@ -318,8 +333,9 @@ static void gaps_are_said_when_used(void **state) {
                   "sphere { 0, 1 }");
     assert_warns("sphere { 0, 1 } blob { threshold 1 sphere { 0, 1, 1 } }",
                  "2:17: error: 'blob' is not modelled");
-    Converted result = convert_text("#declare I = 0; #while (I < 5) sphere { I, 1 pigment { wood } "
-                                    "normal { bumps } } #declare I = I + 1; #end");
+    Converted result =
+        convert_text("#declare I = 0; #while (I < 5) sphere { I, 1 pigment { tiling 3 } "
+                     "normal { bumps } } #declare I = I + 1; #end");
     assert_int_equal(result.warnings, 2); // once a place
     result = convert_text("#declare P = pigment { wood turbulence 1 scale 2 };\n");
     assert_int_equal(result.warnings, 1); // no object
@@ -493,6 +509,7 @@ int main(void) {
         cmocka_unit_test(sphere_keeps_its_numbers),
         cmocka_unit_test(plane_moves_with_its_points),
         cmocka_unit_test(other_shapes),
+        cmocka_unit_test(odd_numbers),
         cmocka_unit_test(transform_blocks),
         cmocka_unit_test(names_stand_for_objects),
         cmocka_unit_test(trees_are_copied_when_changed),

@@ -45,6 +45,9 @@ static void checker_lists(void **state) {
     assert_color(p.entries[0].color, 1, 0, 0, 0, 0);
     assert_color(p.entries[1].color, 1, 1, 1, 0, 0.5);
     assert_near(p.pattern.warps[0].transform.m[2][2], 2);
+    p = pigment("", "pigment { checker 1, <0,0.5,1> }"); // width 5: filter and transmit too
+    assert_color(p.entries[0].color, 1, 1, 1, 1, 1);
+    assert_color(p.entries[1].color, 0, 0.5, 1, 0, 0);
     Scene *s = scene_of("sphere { 0, 1 pigment { checker pigment { rgb x } pigment { gradient y } "
                         "frequency 3 } }");
     const Pigment *list = pigment_of(s, root(s, 0), 0);
@@ -74,7 +77,7 @@ static void color_maps(void **state) {
     assert_color(p.entries[4].color, 0.5, 0, 0, 0, 0);
     assert_color(p.entries[5].color, 0, 1, 1, 1, 1); // T6
     assert_dies("sphere { 0, 1 pigment { gradient x color_map { [0 <1,0,0>] [1 rgb 1] } } }",
-                "2:51: error: expected a colour"); // T41
+                "2:51: error: Expected a colour"); // T41
     assert_dies("sphere { 0, 1 pigment { gradient x color_map { [0 rgb 1, ] } } }", "']'");
     assert_dies("sphere { 0, 1 pigment { <1,0,0> } }", "error");
 }
@@ -332,6 +335,14 @@ static void warps(void **state) {
     assert_dies("sphere { 0, 1 pigment { bozo warp { scale 2 } } }", "kind of warp");
 }
 
+static void missing_patterns(void **state) {
+    (void)state;
+    assert_dies("sphere { 0, 1 normal { scale 2 } }", "a normal needs a pattern");
+    assert_dies("sphere { 0, 1 texture { gradient x } }", "needs a texture_map");
+    assert_silent("sphere { 0, 1 pigment { scale 2 } texture { } }");
+    assert_dies("sphere { 0, 1 pigment { scale 2 gradient x } }", "2:33: error");
+}
+
 static void equal_textures_are_one(void **state) {
     (void)state;
     Scene *s = scene_of("#declare T = texture { pigment { checker rgb x rgb y } }\n"
@@ -442,6 +453,7 @@ int main(void) {
         cmocka_unit_test(middle_colors),
         cmocka_unit_test(pattern_members),
         cmocka_unit_test(warps),
+        cmocka_unit_test(missing_patterns),
         cmocka_unit_test(equal_textures_are_one),
         cmocka_unit_test(all_patterns_are_read),
     };

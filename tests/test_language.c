@@ -17,10 +17,12 @@
 #include "converter/language.h"
 
 #include <dirent.h>
+#include <signal.h>
 #include <stdio.h>
 #include <string.h>
 #include <strings.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 static const char folder[] = "build/test/language"; // for generated programs
@@ -173,8 +175,8 @@ static void check_message(const char *path, const char *message) {
 
 static void test_errors(void **state) {
     (void)state;
-    char *paths[200];
-    size_t count = list_programs("tests/errors", paths, 200);
+    char *paths[400];
+    size_t count = list_programs("tests/errors", paths, 400);
     for (size_t i = 0; i < count; i++) {
         char *message = run_file(paths[i]);
         check_message(paths[i], message);
@@ -323,10 +325,13 @@ static void test_endless(void **state) {
                  "String too long");
     expect_wrong("#declare A = array[100000][100000];", "Too many array elements");
     expect_wrong("#declare A = array[1e300];", "Too many array elements");
-    expect_wrong("#while (1) #declare A = array[1000000]; #end", "Too many array elements");
+    expect_wrong("#while (1) #declare A = array[100000]; #end", "Too many array elements");
     expect_wrong("#declare A = array[1]; #while (1) #declare B = array[1]; #declare B[0] = A; "
                  "#declare A = B; #end",
                  "Nested too deeply");
+    expect_wrong("#declare S = \"0123456789abcdef\" #for (I, 1, 14) #declare S = concat(S, S) #end "
+                 "#while (1) #declare T = concat(S, \"x\") #end",
+                 "needs too much memory");
     char *long_name = repeat("#declare ", "a", " = 1;", "", 5000);
     expect_wrong(long_name, "identifier is too long");
     free(long_name);
@@ -373,11 +378,11 @@ static size_t mutate(Rng *r, const char *text, size_t size, char *out, size_t ro
 
 static void test_mutations(void **state) {
     (void)state;
-    char *paths[200], out_path[256];
+    char *paths[500], out_path[256];
     setenv("QIPOV_MAX_TOKENS", "30000", 1);
     snprintf(out_path, sizeof out_path, "%s/mutation.pov", folder);
     size_t count = list_programs("tests/sdl", paths, 100), right = 0, wrong = 0;
-    count += list_programs("tests/errors", paths + count, 100);
+    count += list_programs("tests/errors", paths + count, 400);
     for (size_t i = 0; i < count; i++) {
         if (strstr(paths[i], "includes.pov") || strstr(paths[i], "endless"))
             continue; // long, and run above
@@ -385,7 +390,7 @@ static void test_mutations(void **state) {
         size_t size;
         char *text = file_read(arena, paths[i], &size, NULL);
         char *out = arena_alloc(arena, size + 64);
-        for (uint64_t n = 0; n < 25; n++) {
+        for (uint64_t n = 0; n < 6; n++) {
             Rng r = {n + 1000 * i};
             write_program(out_path, out, mutate(&r, text, size, out, size + 64));
             char *message = run_file(out_path);
@@ -398,6 +403,35 @@ static void test_mutations(void **state) {
     unsetenv("QIPOV_MAX_TOKENS");
     free_programs(paths, count);
     assert_true(right > 0 && wrong > 0);
+}
+
+// Ctrl-C while a scene is read: the status of an interrupted program.
+static void test_interrupt(void **state) {
+    (void)state;
+    char path[256];
+    snprintf(path, sizeof path, "%s/endless.pov", folder);
+    static const char text[] = "#debug \"started\\n\"\n#while (1) #end\n";
+    write_program(path, text, strlen(text));
+    int ends[2];
+    assert_int_equal(pipe(ends), 0);
+    pid_t child = fork();
+    assert_true(child >= 0);
+    if (child == 0) {
+        setenv("QIPOV_MAX_TOKENS", "1e12", 1);
+        signal(SIGINT, SIG_DFL);
+        dup2(ends[1], STDERR_FILENO);
+        free(run_file(path));
+        _exit(0);
+    }
+    char byte;
+    assert_int_equal(read(ends[0], &byte, 1), 1); // it runs: the handler is in place
+    kill(child, SIGINT);
+    int status = 0;
+    assert_int_equal(waitpid(child, &status, 0), child);
+    assert_true(WIFEXITED(status));
+    assert_int_equal(WEXITSTATUS(status), 2);
+    close(ends[0]);
+    close(ends[1]);
 }
 
 static int set_up(void **state) {
@@ -414,7 +448,7 @@ int main(void) {
         cmocka_unit_test(test_errors),        cmocka_unit_test(test_chain),
         cmocka_unit_test(test_options),       cmocka_unit_test(test_files),
         cmocka_unit_test(test_nesting),       cmocka_unit_test(test_endless),
-        cmocka_unit_test(test_mutations),
+        cmocka_unit_test(test_mutations),     cmocka_unit_test(test_interrupt),
     };
     return cmocka_run_group_tests_name("language", tests, set_up, NULL);
 }

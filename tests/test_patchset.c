@@ -521,6 +521,32 @@ static void scales_and_offsets(void **state) {
     }
 }
 
+// Patches of sizes from 1e-6 to 1e6 about one place: all are found, each to its own tolerance.
+static void mixed_sizes(void **state) {
+    (void)state;
+    Rng rng = {14};
+    Tally tally = {0};
+    scene.count = 3;
+    for (int i = 0; i < 3; i++) {
+        random_patch(&rng, 3, i == 1 ? 12 : 3, 0.05, &scene.patch[i]);
+        double scale = pow(10.0, 6 * i - 6);
+        for (int k = 0; k < bezier_count(&scene.patch[i]); k++) {
+            Vec3 *p = &scene.patch[i].p[k];
+            *p = vec_scale(vec_add(*p, vec3(-0.5, -0.5, 2.0 * i)), scale);
+        }
+    }
+    commit(METHOD_QI);
+    for (int i = 0; i < 150; i++) {
+        int target = i % 3;
+        Vec3 p = bezier_eval(&scene.patch[target], rng_unit(&rng), rng_unit(&rng));
+        Vec3 d = vec_scale(random_direction(&rng), pow(10.0, 6 * target - 6));
+        Ray ray = {vec_madd(p, -rng_range(&rng, 0, 5), d), d};
+        judge(&tally, &ray, 0, INFINITY, 0xff);
+    }
+    expect("mixed sizes", &tally, 150);
+    release();
+}
+
 // A ray from very far away: its own rounding is all that may be lost.
 static void far_origins(void **state) {
     (void)state;
@@ -713,6 +739,7 @@ int main(void) {
         cmocka_unit_test(poles_are_one_hit),
         cmocka_unit_test(grazing_as_the_oracle),
         cmocka_unit_test(scales_and_offsets),
+        cmocka_unit_test(mixed_sizes),
         cmocka_unit_test(far_origins),
         cmocka_unit_test(thin_and_long_patches),
         cmocka_unit_test(thin_sheets),

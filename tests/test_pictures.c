@@ -46,7 +46,7 @@ static void facets_equal_povray(void **state) {
     int bad = 0;
     for (size_t i = 0; i < sizeof SWITCHES / sizeof *SWITCHES; i++) {
         char switches[256];
-        snprintf(switches, sizeof switches, "+W320 +H240 %s", SWITCHES[i]);
+        snprintf(switches, sizeof switches, "+W320 +H240 +L../teapot %s", SWITCHES[i]);
         const char *theirs = render_with_povray("theirs", row->scene, switches);
         strcat(switches, " --method facets");
         const char *ours = render_with_qirender("ours", row->scene, switches);

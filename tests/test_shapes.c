@@ -337,6 +337,55 @@ static void test_uv(void **state) {
     }
 }
 
+// How near and how far hits may be, as measured with POV-Ray: the front of the object is at z = 0
+// after a scale in all directions, the ray starts `distance` before it. Some limits hold for the
+// local depth, some for the world's.
+static void test_depth_limits(void **state) {
+    (void)state;
+    const Object front_sphere = {.type = OBJECT_SPHERE, .shape.sphere = {{0, 0, 1}, 1}};
+    const Object front_box = {.type = OBJECT_BOX, .shape.box = {{-1, -1, 0}, {1, 1, 2}}};
+    const Object front_cylinder = {.type = OBJECT_CYLINDER,
+                                   .shape.cone = {{0, -1, 1}, {0, 1, 1}, 1, 1, false}};
+    const Object front_torus = {.type = OBJECT_TORUS, .shape.torus = {1, 0.5}};
+    const Object front_disc = {.type = OBJECT_DISC, .shape.disc = {{0, 0, 0}, {0, 0, -1}, 3, 0}};
+    const struct {
+        const Object *object;
+        double scale, distance;
+        bool met;
+    } cases[] = {
+        {&front_sphere, 1000, 2e-4, false},   {&front_sphere, 1000, 5e-3, true},
+        {&front_sphere, 30000, 2e-2, false},  {&front_sphere, 30000, 2e-1, true},
+        {&front_box, 1000, 2e-4, true},       {&front_disc, 1000, 2e-4, true},
+        {&front_cylinder, 30000, 2e-4, true}, {&front_cylinder, 1e6, 2e-4, false},
+        {&front_cylinder, 1e6, 5e-3, true},   {&front_torus, 1000, 2e-2, false},
+        {&front_torus, 1000, 2e-1, true},     {&front_torus, 30000, 2, false},
+        {&front_torus, 30000, 20, true},      {&front_sphere, 1, 1.1e7, false},
+        {&front_sphere, 1, 9.9e6, true},      {&front_sphere, 1000, 2e7, true},
+        {&front_cylinder, 1, 1.1e7, false},   {&front_cylinder, 1000, 2e7, true},
+        {&front_torus, 1, 1.1e7, false},      {&front_torus, 1000, 1.1e7, false},
+        {&front_torus, 1000, 9.9e6, true},    {&front_disc, 1000, 1.1e7, false},
+        {&front_disc, 1000, 9.9e6, true},     {&front_box, 1, 9.9e9, true},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        Object object = *cases[i].object;
+        double s = cases[i].scale;
+        bool is_torus = object.type == OBJECT_TORUS;
+        Transform lift = transform_translate(vec3(0, 0, is_torus ? 0.5 : 0));
+        Transform turn = transform_rotate(vec3(is_torus ? 90 : 0, 0, 0));
+        Transform size = transform_scale(vec3(s, s, s));
+        object.has_transform = true;
+        object.transform = transform_compose(&turn, &lift);
+        object.transform = transform_compose(&object.transform, &size);
+        Shape shape = shape_prepare(&object, arena);
+        ShapeHit hits[SHAPE_MAX_HITS];
+        Vec3 org = vec3(is_torus ? s : 0, 0, -cases[i].distance);
+        int count = hits_of(&shape, org, Z, hits);
+        bool met = count > 0 && hits[0].t < cases[i].distance * 1.5;
+        if (met != cases[i].met)
+            fail_msg("case %zu: scale %g, distance %g", i, s, cases[i].distance);
+    }
+}
+
 // ---- quartics -------------------------------------------------------------------------------
 
 static void test_quartic_roots(void **state) {
@@ -566,6 +615,7 @@ int main(void) {
         cmocka_unit_test(test_disc),
         cmocka_unit_test(test_triangle),
         cmocka_unit_test(test_uv),
+        cmocka_unit_test(test_depth_limits),
         cmocka_unit_test(test_quartic_roots),
         cmocka_unit_test(test_random_solids),
         cmocka_unit_test(test_bounds_are_tight),

@@ -104,8 +104,16 @@ static void print_statistics(const RenderOptions *o, const RenderStats *s, doubl
             peak_megabytes(), rule);
 }
 
-// ---- main
-// -----------------------------------------------------------------------------------------
+// ---- main ----------------------------------------------------------------------------------
+
+// POV-Ray renders a scene without objects: a sky may be all that is wanted. Where there is not even
+// that, the picture would be black, and the file is not what its author thinks it is.
+static void check_not_empty(const Scene *scene, const char *file) {
+    const Color *b = &scene->settings.background;
+    if (scene->root_count == 0 && !scene->has_sky_sphere && b->r == 0 && b->g == 0 && b->b == 0)
+        die("'%s' shows no objects, no sky_sphere and no background: there is nothing to render",
+            file);
+}
 
 static void render_file(RenderOptions *o, Arena *arena) {
     const char *output = options_output_path(o, arena, image_extension(o->format));
@@ -117,6 +125,7 @@ static void render_file(RenderOptions *o, Arena *arena) {
     const Scene *scene =
         is_scene_file(o->input) ? scene_read(o->input, arena) : convert_scene(o, arena);
     double read_seconds = progress_seconds() - start;
+    check_not_empty(scene, o->input);
 
     RenderStats stats;
     ImageWriteOptions write;

@@ -23,7 +23,7 @@
 #ifdef HOSTILE
 enum { MAX_CELLS = 50 };
 #else
-enum { MAX_CELLS = 1 << 20 }; // 200 MB
+enum { MAX_CELLS = 1 << 19 }; // 100 MB as quads, 260 MB as nets
 #endif
 
 enum {

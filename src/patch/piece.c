@@ -9,7 +9,9 @@
 #include <float.h>
 #include <string.h>
 
-// A patch is cut until the thickness of its pieces is this share of their size.
+// A patch is cut until the thickness of its pieces is this share of their size. The teapot: 2 % to
+// 4 % trace equally fast, 1 % takes four times the memory for nothing, and at 6 % rays at
+// silhouettes that qi_reduce must settle, 0.2 % of all before, begin to tell.
 static const double SHARE = 0.03;
 
 enum {

@@ -259,9 +259,9 @@ typedef struct {
 
 // The two forms of a piece: A (x, y) where the mean Jacobian allows it (true), else the rotation,
 // both after x and y were brought to one size.
-static inline bool choose_forms(const Search *q, double xu, double yu, double xv, double yv,
+static inline bool choose_forms(const QiTarget *q, double xu, double yu, double xv, double yv,
                                 QiForm forms[2]) {
-    double wx = q->target.weight_x, wy = q->target.weight_y;
+    double wx = q->weight_x, wy = q->weight_y;
     xu *= wx, xv *= wx, yu *= wy, yv *= wy;
     double det = xu * yv - xv * yu;
     double uu = xu * xu + yu * yu, vv = xv * xv + yv * yv;
@@ -288,9 +288,8 @@ static inline bool within(const QiNet *p, int count, double radius) {
     return true;
 }
 
-// Is the form's value on the piece nothing but rounding?
-static inline bool weak_form(const QiNet *p, int count, QiForm f, const QiFrame *frame) {
-    double most = 16.0 * (fabs(f.bx) * frame->slack_x + fabs(f.by) * frame->slack_y);
+// Is the form's value nowhere on the piece above `most`?
+static inline bool weak_form(const QiNet *p, int count, QiForm f, double most) {
     for (int k = 0; k < count; k++)
         if (!(fabs(f.bx * p->x[k] + f.by * p->y[k]) <= most))
             return false;
@@ -298,13 +297,13 @@ static inline bool weak_form(const QiNet *p, int count, QiForm f, const QiFrame 
 }
 
 // Longest difference of neighbours, in the larger coordinate by weight.
-static inline void lengths(const Search *q, const QiNet *p, int du, int dv, double *along_u,
+static inline void lengths(const QiTarget *q, const QiNet *p, int du, int dv, double *along_u,
                            double *along_v) {
     double none[2], x[2], y[2];
     differences(p->x, du, dv, none, x);
     differences(p->y, du, dv, none, y);
-    *along_u = larger(x[0] * q->target.weight_x, y[0] * q->target.weight_y);
-    *along_v = larger(x[1] * q->target.weight_x, y[1] * q->target.weight_y);
+    *along_u = larger(x[0] * q->weight_x, y[0] * q->weight_y);
+    *along_v = larger(x[1] * q->weight_x, y[1] * q->weight_y);
 }
 
 // Which half is met first? Where J is singular the first form vanishes along a curve of the piece,
@@ -315,75 +314,107 @@ static inline bool nearer_low(bool along_u, bool regular, QiForm f, double zu, d
     return regular || f.au == 0.0 ? zv >= 0.0 : (zv * f.au - zu * f.av) * f.au >= 0.0;
 }
 
-static inline Step step_of(Search *q, BezierRect r, int du, int dv, Rest *rest) {
-    const QiNet *whole = &q->target.whole;
+// One piece on its way through a step.
+typedef struct {
+    BezierRect rect, left; // before and after the step
+    QiNet net;
+    QiForm forms[2];
+    Remainder bounds[2];
+    Span u, v;    // what the bounds leave, in the piece's own parameters
+    bool regular; // forms are A (x, y)
+} Piece;
+
+// Restricts the patch, reads the parameters off. False: the ray misses the piece, or meets it only
+// at depths that do not count.
+static inline bool reduce_piece(Search *q, int du, int dv, Piece *p) {
+    const QiTarget *target = &q->target;
+    const BezierRect r = p->rect;
     double wu[LINE * LINE], wv[LINE * LINE];
-    QiNet p;
-    int count = (du + 1) * (dv + 1);
     q->steps++;
     restriction(wu, du + 1, 1, du, r.u0, r.u1);
     restriction(wv, 1, dv + 1, dv, r.v0, r.v1);
-    restrict_axis(whole->x, wu, wv, du, dv, p.x);
-    restrict_axis(whole->y, wu, wv, du, dv, p.y);
+    restrict_axis(target->whole.x, wu, wv, du, dv, p->net.x);
+    restrict_axis(target->whole.y, wu, wv, du, dv, p->net.y);
+    p->regular = choose_forms(target, trend_u(p->net.x, du, dv), trend_u(p->net.y, du, dv),
+                              trend_v(p->net.x, du, dv), trend_v(p->net.y, du, dv), p->forms);
 
-    QiForm forms[2];
-    Remainder bounds[2];
-    bool regular = choose_forms(q, trend_u(p.x, du, dv), trend_u(p.y, du, dv), trend_v(p.x, du, dv),
-                                trend_v(p.y, du, dv), forms);
     double zu = quasi_z_infinity(du), zv = quasi_z_infinity(dv);
-    Span u = {0.0, 1.0}, v = {0.0, 1.0};
+    p->u = p->v = (Span){0.0, 1.0};
     for (int k = 0; k < 2; k++) {
-        bounds[k] = bound_remainder(&p, du, dv, forms[k], zu, zv, &q->target.frame);
-        if (!clip(forms[k].au, forms[k].av, bounds[k].span, v, &u) ||
-            !clip(forms[k].av, forms[k].au, bounds[k].span, u, &v))
-            return STEP_DONE;
+        QiForm f = p->forms[k];
+        p->bounds[k] = bound_remainder(&p->net, du, dv, f, zu, zv, &target->frame);
+        if (!clip(f.au, f.av, p->bounds[k].span, p->v, &p->u) ||
+            !clip(f.av, f.au, p->bounds[k].span, p->u, &p->v))
+            return false;
     }
-    restrict_axis(whole->z, wu, wv, du, dv, p.z);
-    Span depth = span_of(p.z, count);
-    if (depth.high + q->target.frame.slack_z < q->target.frame.z_low ||
-        depth.low - q->target.frame.slack_z > qi_list_z_high(&q->target.list, &q->target.frame))
+    restrict_axis(target->whole.z, wu, wv, du, dv, p->net.z);
+    Span depth = span_of(p->net.z, (du + 1) * (dv + 1));
+    if (depth.high + target->frame.slack_z < target->frame.z_low ||
+        depth.low - target->frame.slack_z > qi_list_z_high(&target->list, &target->frame))
+        return false;
+
+    p->left = r;
+    narrow(&p->left.u0, &p->left.u1, p->u);
+    narrow(&p->left.v0, &p->left.v1, p->v);
+    return true;
+}
+
+// Rounding of a form's value.
+static double form_slack(QiForm f, const QiFrame *frame) {
+    return fabs(f.bx) * frame->slack_x + fabs(f.by) * frame->slack_y;
+}
+
+// Is there one root at most, and was it found or proved absent?
+static bool finish_single(Search *q, const Piece *p) {
+    double slope = larger(p->bounds[0].slope, p->bounds[1].slope);
+    if (!p->regular || slope > LIKELY_SLOPE)
+        return false;
+    // Twice the rounding that Newton may leave, times 1 / (1 - L).
+    double times = 2.0 * QI_ROOT_SLACKS / (1.0 - slope);
+    double error_u = times * form_slack(p->forms[0], &q->target.frame) * (p->rect.u1 - p->rect.u0);
+    double error_v = times * form_slack(p->forms[1], &q->target.frame) * (p->rect.v1 - p->rect.v0);
+    return qi_root_sharpen(&q->target, p->left, error_u, error_v) || slope <= CERTAIN_SLOPE;
+}
+
+// Pieces of a singular J in which the ray is as good as in the surface.
+static inline bool finish_singular(Search *q, int count, const Piece *p, bool least) {
+    const QiFrame *frame = &q->target.frame;
+    const QiForm *f = p->forms;
+    if (!p->regular && p->bounds[0].slope < fmin(fabs(f[0].au), fabs(f[0].av)) &&
+        weak_form(&p->net, count, f[1], 16.0 * form_slack(f[1], frame)) &&
+        qi_root_settle_curve(&q->target, p->left, f[0], form_slack(f[0], frame)))
+        return true;
+    return (least || within(&p->net, count, frame->tolerance)) &&
+           (qi_root_settle(&q->target, p->left) || least);
+}
+
+static inline Step step_of(Search *q, BezierRect rect, int du, int dv, Rest *rest) {
+    Piece p;
+    p.rect = rect;
+    if (!reduce_piece(q, du, dv, &p))
+        return STEP_DONE;
+    rest->rect = p.left;
+    if (finish_single(q, &p))
         return STEP_DONE;
 
-    BezierRect left = r;
-    narrow(&left.u0, &left.u1, u);
-    narrow(&left.v0, &left.v1, v);
-    rest->rect = left;
-    double slope = larger(bounds[0].slope, bounds[1].slope);
-    if (regular && slope <= LIKELY_SLOPE) {
-        double sx = 2.0 * QI_ROOT_SLACKS * q->target.frame.slack_x,
-               sy = 2.0 * QI_ROOT_SLACKS * q->target.frame.slack_y;
-        double error_u = (fabs(forms[0].bx) * sx + fabs(forms[0].by) * sy) * (r.u1 - r.u0);
-        double error_v = (fabs(forms[1].bx) * sx + fabs(forms[1].by) * sy) * (r.v1 - r.v0);
-        // Twice the rounding, times 1 / (1 - L).
-        double stretch = 1.0 / (1.0 - slope);
-        if (qi_root_sharpen(&q->target, left, stretch * error_u, stretch * error_v) ||
-            slope <= CERTAIN_SLOPE)
-            return STEP_DONE;
-    }
-    double width_u = left.u1 - left.u0, width_v = left.v1 - left.v0;
-    bool least = width_u <= LEAST_WIDTH && width_v <= LEAST_WIDTH;
+    double width_u = p.left.u1 - p.left.u0, width_v = p.left.v1 - p.left.v0;
+    bool least_u = width_u <= LEAST_WIDTH, least_v = width_v <= LEAST_WIDTH;
+    bool least = least_u && least_v;
     // A width at its least counts as not shrinking, so that each such step halves what can shrink.
-    double kept_u = width_u > LEAST_WIDTH ? width_u / (r.u1 - r.u0) : 1.0;
-    double kept_v = width_v > LEAST_WIDTH ? width_v / (r.v1 - r.v0) : 1.0;
+    double kept_u = least_u ? 1.0 : width_u / (rect.u1 - rect.u0);
+    double kept_v = least_v ? 1.0 : width_v / (rect.v1 - rect.v0);
     if (!least && kept_u * kept_v <= 0.5)
         return STEP_AGAIN;
-    if (!regular && bounds[0].slope < fmin(fabs(forms[0].au), fabs(forms[0].av)) &&
-        weak_form(&p, count, forms[1], &q->target.frame) &&
-        qi_root_settle_curve(&q->target, left, forms[0],
-                             fabs(forms[0].bx) * q->target.frame.slack_x +
-                                 fabs(forms[0].by) * q->target.frame.slack_y))
-        return STEP_DONE;
-    if ((within(&p, count, q->target.frame.tolerance) || least) &&
-        (qi_root_settle(&q->target, left) || least))
+    if (finish_singular(q, (du + 1) * (dv + 1), &p, least))
         return STEP_DONE;
 
     double along_u, along_v;
-    lengths(q, &p, du, dv, &along_u, &along_v);
-    along_u *= u.high - u.low;
-    along_v *= v.high - v.low;
-    rest->along_u = width_v <= LEAST_WIDTH || (width_u > LEAST_WIDTH && along_u >= along_v);
-    rest->low_first =
-        nearer_low(rest->along_u, regular, forms[0], trend_u(p.z, du, dv), trend_v(p.z, du, dv));
+    lengths(&q->target, &p.net, du, dv, &along_u, &along_v);
+    along_u *= p.u.high - p.u.low;
+    along_v *= p.v.high - p.v.low;
+    rest->along_u = least_v || (!least_u && along_u >= along_v);
+    rest->low_first = nearer_low(rest->along_u, p.regular, p.forms[0], trend_u(p.net.z, du, dv),
+                                 trend_v(p.net.z, du, dv));
     return STEP_HALVE;
 }
 

@@ -117,6 +117,7 @@ static bool in_range(const Query *query, double t) { return t >= query->t_min &&
 
 typedef struct {
     const PatchRay *ray;
+    const Query *query;
     RootTake take;
     void *context;
     bool go_on;
@@ -132,7 +133,7 @@ static void set_errors(const Point *p, Root *root) {
 
 static void take_qi(void *context, const QiHit *hit) {
     Fallback *f = context;
-    if (!f->go_on)
+    if (!f->go_on || !in_range(f->query, hit->t))
         return;
     Root root = {.hit = {hit->t, hit->u, hit->v, hit->normal, hit->bound, f->ray->patch->def->id}};
     Point p;
@@ -149,10 +150,13 @@ static bool search_qi(const PatchRay *ray, BezierRect rect, Query *query, RootTa
     const PatchDef *def = ray->patch->def;
     Bezier patch;
     bezier_init(&patch, (int)def->degree_u, (int)def->degree_v, def->points);
-    QiQuery ask = {query->ray, query->t_min, query->t_max, ray->patch->tolerance, rect};
+    // A little beyond t_max, so that the range does not end on a pole that a neighbour has reported
+    // just now: there the search would go down to the last bit.
+    double t_max = query->t_max + 16.0 * ray->patch->tolerance * ray->t_per_s;
+    QiQuery ask = {query->ray, query->t_min, t_max, ray->patch->tolerance, rect};
     QiStats stats = {0};
     QiHit hit;
-    Fallback f = {ray, take, context, true};
+    Fallback f = {ray, query, take, context, true};
     if (query->kind == QUERY_ALL)
         qi_reduce_all(&patch, &ask, &stats, take_qi, &f);
     else if (qi_reduce_nearest(&patch, &ask, &stats, &hit))

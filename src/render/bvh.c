@@ -10,11 +10,6 @@
 #include <float.h>
 #include <string.h>
 
-#ifdef HOSTILE
-enum { LEAF_SIZE = 1 };
-#else
-enum { LEAF_SIZE = 3 }; // 2 to 4 measured alike on 100,000 spheres
-#endif
 enum {
     BINS = 16,
     // From this depth on ranges are halved by count, 32 more levels at most; each level leaves at
@@ -137,7 +132,7 @@ static void split(const Builder *b, const Range *range, Range parts[2]) {
 static int part_to_split(const Range *parts, int count) {
     int best = -1;
     for (int i = 0; i < count; i++)
-        if (parts[i].count > LEAF_SIZE &&
+        if (parts[i].count > 1 &&
             (best < 0 || half_area(&parts[i].box) > half_area(&parts[best].box)))
             best = i;
     return best;
@@ -173,13 +168,19 @@ Bvh bvh_build(const Box *boxes, uint32_t count, Arena *arena) {
         bvh.items[i] = i;
     const Builder b = {boxes, bvh.items};
     ARRAY(BvhNode) nodes = {0};
-    ARRAY(Range) ranges = {0}; // of the node with the same index
+    // Nodes still to be filled; the last first, so that a subtree stays together in memory.
+    struct Work {
+        uint32_t node;
+        Range range;
+    };
+    ARRAY(struct Work) work = {0};
     BvhNode empty;
     clear_node(&empty);
     array_push(&nodes, empty);
-    array_push(&ranges, ((Range){0, count, 0, box_of(&b, 0, count)}));
-    for (uint32_t n = 0; n < nodes.count; n++) {
-        Range parts[BVH_WIDTH] = {ranges.items[n]};
+    array_push(&work, ((struct Work){0, {0, count, 0, box_of(&b, 0, count)}}));
+    while (work.count > 0) {
+        uint32_t n = work.items[--work.count].node;
+        Range parts[BVH_WIDTH] = {work.items[work.count].range};
         int part_count = 1;
         for (int chosen; part_count < BVH_WIDTH && (chosen = part_to_split(parts, part_count)) >= 0;
              part_count++) {
@@ -190,105 +191,123 @@ Bvh bvh_build(const Box *boxes, uint32_t count, Arena *arena) {
         }
         for (int i = 0; i < part_count; i++) {
             store_box(&nodes.items[n], i, &parts[i].box);
-            bool leaf = parts[i].count <= LEAF_SIZE;
-            nodes.items[n].count[i] = leaf ? parts[i].count : 0;
-            nodes.items[n].first[i] = leaf ? parts[i].first : (uint32_t)nodes.count;
-            if (!leaf) {
-                array_push(&nodes, empty);
-                array_push(&ranges, parts[i]);
+            if (parts[i].count == 1) {
+                nodes.items[n].child[i] = parts[i].first | BVH_LEAF;
+                continue;
             }
+            nodes.items[n].child[i] = (uint32_t)nodes.count;
+            array_push(&work, ((struct Work){(uint32_t)nodes.count, parts[i]}));
+            array_push(&nodes, empty);
         }
     }
     bvh.node_count = (uint32_t)nodes.count;
     bvh.nodes = arena_copy(arena, nodes.items, nodes.count * sizeof *nodes.items);
     array_free(&nodes);
-    array_free(&ranges);
+    array_free(&work);
     return bvh;
 }
 
 // ---- walking --------------------------------------------------------------------------------
 
+// All in single precision, four lanes at once. Each axis has its origin twice, rounded so that
+// entering is never found too late nor leaving too early.
 typedef struct {
-    double org[3], inverse[3]; // of the direction
-    double t_min;
+    float enter_org[3], leave_org[3], inverse[3];
+    float t_min;
 } WalkRay;
 
+static float round_down(double x) {
+    float f = (float)x;
+    return (double)f > x ? nextafterf(f, -INFINITY) : f;
+}
+
+static float round_up(double x) {
+    float f = (float)x;
+    return (double)f < x ? nextafterf(f, INFINITY) : f;
+}
+
 static WalkRay walk_ray(const Ray *ray, double t_min) {
-    WalkRay w = {.t_min = t_min};
+    WalkRay w = {.t_min = round_down(t_min)};
     for (int axis = 0; axis < 3; axis++) {
-        double d = vec_get(ray->dir, axis);
-        w.org[axis] = vec_get(ray->org, axis);
+        double d = vec_get(ray->dir, axis), org = vec_get(ray->org, axis);
         // A direction (nearly) within the slab gets a huge inverse that is no infinity: 0 x it is
         // 0, not NaN, when the origin lies in the plane of a side.
-        w.inverse[axis] = fabs(d) < 1e-300 ? copysign(1e300, d) : 1.0 / d;
+        w.inverse[axis] = (float)(fabs(d) < 1e-37 ? copysign(1e37, d) : 1.0 / d);
+        bool up = w.inverse[axis] > 0.0F;
+        w.enter_org[axis] = up ? round_up(org) : round_down(org);
+        w.leave_org[axis] = up ? round_down(org) : round_up(org);
     }
     return w;
 }
 
-// Where the ray enters each lane's box. t_out: where it leaves.
-static inline void meet_lanes(const BvhNode *node, const WalkRay *ray, double t_max,
-                              double t_in[BVH_WIDTH], double t_out[BVH_WIDTH]) {
+// Two roundings (difference, product) and that of the inverse in each depth: (1 +- 2^-24)^3.
+static const float SLACK = 0x1p-22F;
+
+// Depths at which the ray enters each lane's box, and leaves it.
+static inline void meet_lanes(const BvhNode *node, const WalkRay *ray, float t_max,
+                              float t_in[BVH_WIDTH], float t_out[BVH_WIDTH]) {
     for (int k = 0; k < BVH_WIDTH; k++)
         t_in[k] = ray->t_min, t_out[k] = t_max;
     for (int axis = 0; axis < 3; axis++) {
-        double org = ray->org[axis], inverse = ray->inverse[axis];
-        const float *near = inverse < 0.0 ? node->high[axis] : node->low[axis];
-        const float *far = inverse < 0.0 ? node->low[axis] : node->high[axis];
+        float enter_org = ray->enter_org[axis], leave_org = ray->leave_org[axis];
+        float inverse = ray->inverse[axis];
+        const float *near = inverse < 0.0F ? node->high[axis] : node->low[axis];
+        const float *far = inverse < 0.0F ? node->low[axis] : node->high[axis];
+#pragma omp simd
         for (int k = 0; k < BVH_WIDTH; k++) {
-            double enter = ((double)near[k] - org) * inverse;
-            double leave = ((double)far[k] - org) * inverse;
+            float enter = (near[k] - enter_org) * inverse;
+            float leave = (far[k] - leave_org) * inverse;
             t_in[k] = enter > t_in[k] ? enter : t_in[k];
             t_out[k] = leave < t_out[k] ? leave : t_out[k];
         }
     }
+#pragma omp simd
+    for (int k = 0; k < BVH_WIDTH; k++) {
+        t_in[k] -= SLACK * fabsf(t_in[k]);
+        t_out[k] += SLACK * fabsf(t_out[k]);
+    }
 }
-
-// Three roundings in each depth: (1 +- 2^-53)^3 on either side of the comparison.
-static const double SLACK = 0x1p-50;
 
 void bvh_walk(const Bvh *bvh, const Ray *ray, double t_min, double t_max, BvhVisit visit,
               void *context) {
     struct {
-        double t;
-        uint32_t first, count;
+        float t;
+        uint32_t child;
     } stack[STACK_SIZE];
     if (bvh->node_count == 0)
         return;
     const WalkRay walk = walk_ray(ray, t_min);
+    float limit = round_up(t_max);
     int size = 0;
-    stack[size].t = -INFINITY;
-    stack[size].first = stack[size].count = 0;
-    size++;
-    while (size > 0) {
-        size--;
-        uint32_t first = stack[size].first, count = stack[size].count;
-        if (stack[size].t > t_max)
-            continue;
-        if (count > 0) {
-            t_max = visit(context, first, count);
-            continue;
-        }
-        const BvhNode *node = &bvh->nodes[first];
-        double t_in[BVH_WIDTH], t_out[BVH_WIDTH];
-        meet_lanes(node, &walk, t_max, t_in, t_out);
-        // The farther children go deeper into the stack.
-        int base = size;
-        for (int k = 0; k < BVH_WIDTH; k++) {
-            if ((node->first[k] | node->count[k]) == 0)
-                break;
-            double enter = t_in[k] - SLACK * fabs(t_in[k]);
-            if (!(enter <= t_out[k] + SLACK * fabs(t_out[k])))
-                continue;
-            int at = size++;
-            assert(size <= STACK_SIZE);
-            while (at > base && stack[at - 1].t < enter) {
-                stack[at] = stack[at - 1];
-                at--;
+    uint32_t child = 0; // the root
+    for (;;) {
+        if (child & BVH_LEAF) {
+            limit = round_up(visit(context, child & ~BVH_LEAF));
+        } else {
+            const BvhNode *node = &bvh->nodes[child];
+            float t_in[BVH_WIDTH], t_out[BVH_WIDTH];
+            meet_lanes(node, &walk, limit, t_in, t_out);
+            // The farther children go deeper into the stack.
+            int base = size;
+            for (int k = 0; k < BVH_WIDTH; k++) {
+                if (!(t_in[k] <= t_out[k]))
+                    continue;
+                int at = size++;
+                assert(size <= STACK_SIZE);
+                while (at > base && stack[at - 1].t < t_in[k]) {
+                    stack[at] = stack[at - 1];
+                    at--;
+                }
+                stack[at].t = t_in[k];
+                stack[at].child = node->child[k];
             }
-            stack[at].t = enter;
-            stack[at].first = node->first[k];
-            stack[at].count = node->count[k];
         }
+        do {
+            if (size == 0)
+                return;
+            size--;
+        } while (!(stack[size].t <= limit));
+        child = stack[size].child;
     }
 }
 
@@ -301,16 +320,15 @@ bool bvh_walk_point(const Bvh *bvh, Vec3 p, BvhVisitPoint visit, void *context) 
     while (size > 0) {
         const BvhNode *node = &bvh->nodes[stack[--size]];
         for (int k = 0; k < BVH_WIDTH; k++) {
-            if ((node->first[k] | node->count[k]) == 0)
-                break;
             if (!(p.x >= (double)node->low[0][k] && p.x <= (double)node->high[0][k] &&
                   p.y >= (double)node->low[1][k] && p.y <= (double)node->high[1][k] &&
                   p.z >= (double)node->low[2][k] && p.z <= (double)node->high[2][k]))
                 continue;
-            if (node->count[k] == 0) {
+            uint32_t child = node->child[k];
+            if (!(child & BVH_LEAF)) {
                 assert(size < STACK_SIZE);
-                stack[size++] = node->first[k];
-            } else if (visit(context, node->first[k], node->count[k])) {
+                stack[size++] = child;
+            } else if (visit(context, child & ~BVH_LEAF)) {
                 return true;
             }
         }

@@ -10,13 +10,14 @@
 #include <stdint.h>
 
 enum { BVH_WIDTH = 4 };
+#define BVH_LEAF 0x80000000U
 
-// Boxes in single precision, rounded outwards; per axis all lanes together. A lane with count > 0
-// is a leaf of `count` items from `first` on in leaf order; count 0 and first > 0 is an inner node
-// (the root is nobody's child); both 0: empty, its box holds nothing.
+// Boxes in single precision, rounded outwards; per axis all lanes together. A child is the index of
+// a node, or BVH_LEAF + the place of one item in leaf order. The box of an empty lane is inside
+// out.
 typedef struct {
     float low[3][BVH_WIDTH], high[3][BVH_WIDTH];
-    uint32_t first[BVH_WIDTH], count[BVH_WIDTH];
+    uint32_t child[BVH_WIDTH];
 } BvhNode;
 
 typedef struct {
@@ -26,18 +27,18 @@ typedef struct {
     uint32_t item_count;
 } Bvh;
 
-// boxes: finite, not empty. Nodes and items live in arena.
+// boxes: finite, not empty; fewer than 2^31. Nodes and items live in arena.
 Bvh bvh_build(const Box *boxes, uint32_t count, Arena *arena);
 
-// Calls visit for the leaves that the ray meets between t_min (>= 0) and t_max, nearer boxes first;
-// visit returns the new t_max, -INFINITY to end. Boxes that begin exactly at t_max are visited.
-// Conservative against all rounding of its own.
-typedef double (*BvhVisit)(void *context, uint32_t first, uint32_t count);
+// Calls visit for the items (their place in leaf order) whose boxes the ray meets between t_min
+// (>= 0) and t_max, nearer boxes first; visit returns the new t_max, -INFINITY to end. Boxes that
+// begin exactly at t_max are visited. Conservative against all rounding of its own.
+typedef double (*BvhVisit)(void *context, uint32_t place);
 void bvh_walk(const Bvh *bvh, const Ray *ray, double t_min, double t_max, BvhVisit visit,
               void *context);
 
-// Calls visit for the leaves whose box holds p; ends when it returns true, and then is true.
-typedef bool (*BvhVisitPoint)(void *context, uint32_t first, uint32_t count);
+// Calls visit for the items whose box holds p; ends when it returns true, and then is true.
+typedef bool (*BvhVisitPoint)(void *context, uint32_t place);
 bool bvh_walk_point(const Bvh *bvh, Vec3 p, BvhVisitPoint visit, void *context);
 
 #endif

@@ -57,14 +57,10 @@ static bool query_prim(PointQuery *query, const Prim *prim) {
     return false;
 }
 
-static bool query_leaf(void *context, uint32_t first, uint32_t count) {
+static bool query_item(void *context, uint32_t place) {
     PointQuery *query = context;
-    for (uint32_t i = first; i < first + count; i++) {
-        const Prim *prim = &query->world->prims[i];
-        if (shape_inside_bounded(&prim->shape) && query_prim(query, prim))
-            return true;
-    }
-    return false;
+    const Prim *prim = &query->world->prims[place];
+    return shape_inside_bounded(&prim->shape) && query_prim(query, prim);
 }
 
 static bool query_all(PointQuery *query) {
@@ -72,7 +68,7 @@ static bool query_all(PointQuery *query) {
     for (uint32_t i = 0; i < world->boundless_count; i++)
         if (query_prim(query, &world->prims[world->boundless[i]]))
             return true;
-    return bvh_walk_point(&world->tree, query->p, query_leaf, query);
+    return bvh_walk_point(&world->tree, query->p, query_item, query);
 }
 
 static bool hidden(const World *world, const Leaf *leaf, Vec3 p) {
@@ -148,14 +144,10 @@ static void try_prim(RayQuery *query, const Prim *prim) {
     }
 }
 
-static double try_leaf(void *context, uint32_t first, uint32_t count) {
+static double try_item(void *context, uint32_t place) {
     RayQuery *query = context;
-    for (uint32_t i = first; i < first + count; i++) {
-        try_prim(query, &query->world->prims[i]);
-        if (query->any && query->leaf)
-            return -INFINITY;
-    }
-    return query->t;
+    try_prim(query, &query->world->prims[place]);
+    return query->any && query->leaf ? -INFINITY : query->t;
 }
 
 static void try_patch_hit(void *context, const PatchHit *hit) {
@@ -192,7 +184,7 @@ static void try_prims(RayQuery *query) {
         if (!(query->any && query->leaf))
             try_prim(query, &world->prims[i]);
     if (!(query->any && query->leaf))
-        bvh_walk(&world->tree, query->ray, fmax(query->t_min, 0.0), query->t, try_leaf, query);
+        bvh_walk(&world->tree, query->ray, fmax(query->t_min, 0.0), query->t, try_item, query);
 }
 
 // The same ray with a unit direction; the old one's length, 0 if nothing can be asked of it (no

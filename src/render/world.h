@@ -25,7 +25,7 @@ typedef struct {
     double t;
     Vec3 p;          // org + t dir
     Vec3 normal;     // unit; the object's, before flipping to the viewer; `inverse` already applied
-    double u, v;     // texture coordinates where the object has them, else 0
+    double u, v;     // texture coordinates; p.x, p.y where the object has no mapping of its own
     double bound;    // patches: the hit's proven bound, else 0
     uint32_t object; // index in scene->objects, a leaf
 } WorldHit;
@@ -37,7 +37,8 @@ World *world_create(const Scene *scene, const PatchSetOptions *patches);
 void world_destroy(World *world);
 
 // Nearest hit with t_min <= t < t_max that this kind of ray can see. Equal depths: the object that
-// stands first in the source. Each primitive also has its own least depth (facts: rendering 0.2).
+// stands first in the source, infinite ones before all others. Each primitive also has its own
+// least depth (facts: rendering 0.2).
 bool world_intersect(const World *world, const Ray *ray, double t_min, double t_max, RayKind kind,
                      RayStats *stats, WorldHit *hit);
 // Is anything that throws a shadow between? Only right when all of that is opaque.

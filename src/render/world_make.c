@@ -14,7 +14,7 @@ enum { MAX_NESTING = 200 };
 
 // A box of more than this volume is infinite to POV-Ray, and is tried before all others.
 static const double INFINITE_VOLUME = 2e10;
-// Fewer objects than this are tried in the order of the source by POV-Ray.
+// Fewer objects than this, lights counted, are tried in the order of the source by POV-Ray.
 enum { BOUNDING_THRESHOLD = 3 };
 
 typedef struct {
@@ -115,7 +115,7 @@ static void rank_leaves(World *world, const Maker *maker, const Box *boxes) {
             box = box_union(box, boxes[i]);
         Vec3 size = vec_sub(box.high, box.low);
         bool infinite = !is_bounded(&box) || size.x * size.y * size.z > INFINITE_VOLUME;
-        bool later = frame_count >= BOUNDING_THRESHOLD && !infinite;
+        bool later = frame_count + world->scene->light_count >= BOUNDING_THRESHOLD && !infinite;
         for (uint32_t i = first; i < end; i++)
             world->leaves[i].rank = i + (later ? world->leaf_count : 0);
     }

@@ -61,5 +61,6 @@ CheckV("spline", Curve(0.5), <2.5, 3.5, 4.5>)
 Check("component", Curve(0.5).y, 3.5)
 #declare OfCurve = function(x) { Curve(x).z*2 }
 Check("component inside", OfCurve(0.5), 9)
-#declare Wrapped = function(x, y, z, R) { internal(61) }
+#declare Wrapped = function { internal(24) }
+#declare Uses = function { Wrapped(x, y, z, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10) + Wrapped(0, 0, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10) }
 sphere { 0, 1 }

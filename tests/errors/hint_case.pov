@@ -1,0 +1,2 @@
+// 2:1 (reserved words are in small letters: 'sphere')
+Sphere { 0, 1 }

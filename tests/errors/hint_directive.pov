@@ -1,0 +1,2 @@
+// 2:2 (did you mean 'include'?)
+#includ "colors.inc"

@@ -1,0 +1,3 @@
+// 3:14 (did you mean 'Radius'?)
+#declare Radius = 1;
+#declare A = Raduis;

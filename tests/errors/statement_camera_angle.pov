@@ -1,0 +1,2 @@
+// 2:10 less than 180
+camera { angle 180 }

@@ -1,0 +1,2 @@
+// 2:31 same point
+camera { location y look_at y }

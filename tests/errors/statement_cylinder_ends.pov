@@ -1,0 +1,2 @@
+// 2:12 the same point
+cylinder { x, x, 1 }

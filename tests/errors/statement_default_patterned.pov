@@ -1,0 +1,2 @@
+// 2:12 must be plain
+#default { texture { checker } }

@@ -1,0 +1,2 @@
+// 2:24 found instead
+sphere { 0, 1 finish { gloss 3 } }

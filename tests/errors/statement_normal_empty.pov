@@ -1,0 +1,2 @@
+// 2:24 needs a pattern
+sphere { 0, 1 normal { } }

@@ -1,0 +1,2 @@
+// 2:1 not finite
+sphere { 0, 1e400 }

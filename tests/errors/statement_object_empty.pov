@@ -1,0 +1,2 @@
+// 2:10 an object
+object { pigment { rgb 1 } }

@@ -1,0 +1,3 @@
+// 4:1 End of File
+sphere { 0, 1
+  pigment { rgb 1 }

@@ -1,0 +1,2 @@
+// 2:19 found instead
+global_settings { wobble 3 }

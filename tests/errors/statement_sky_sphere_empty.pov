@@ -1,0 +1,2 @@
+// 2:14 'pigment' in 'sky_sphere'
+sky_sphere { }

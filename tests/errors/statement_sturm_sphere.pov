@@ -1,0 +1,2 @@
+// 2:15 'sturm' cannot be used
+sphere { 0, 1 sturm }

@@ -1,0 +1,3 @@
+// 3:15 patterned texture
+sphere { 0, 1 texture { checker }
+              texture { } }

@@ -1,0 +1,2 @@
+// 2:1 'pigment' found
+pigment { rgb 1 }

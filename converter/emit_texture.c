@@ -138,22 +138,51 @@ static void copy_warps(Emitter *e, const PatternNode *node, Pattern *pattern) {
     for (const WarpNode *warp = node->warps; warp; warp = warp->next)
         count++;
     pattern->warps = ARENA_ARRAY(e->cv->arena, Warp, count);
-    bool joined = false; // the last one stored is the next one's neighbour in the text
-    for (const WarpNode *warp = node->warps; warp; warp = warp->next) {
-        if (warp->loc) {
-            emit_gap(e, warp->loc, "warp is not modelled: the pattern is left as it was before it");
-        } else if (joined) {
-            Warp *last = &pattern->warps[pattern->warp_count - 1];
-            last->transform = transform_compose(&warp->transform, &last->transform);
-        } else {
-            pattern->warps[pattern->warp_count++] =
-                (Warp){.type = WARP_TRANSFORM, .transform = warp->transform};
-            joined = true;
-        }
+    for (const WarpNode *warp = node->warps; warp; warp = warp->next)
+        pattern->warps[pattern->warp_count++] = warp->warp;
+}
+
+// The members that the type looks at; the others keep their defaults, so that the scene file shows
+// only what matters.
+static void copy_shape(const Pattern *shape, Pattern *pattern) {
+    pattern->wave = shape->wave;
+    pattern->frequency = shape->frequency;
+    pattern->phase = shape->phase;
+    if (shape->wave == WAVE_POLY)
+        pattern->exponent = shape->exponent;
+    pattern->noise_generator = shape->noise_generator;
+    // Octaves without an amount move nothing; agate looks at them all the same.
+    const Vec3 amount = shape->turbulence.amount;
+    bool moves = amount.x != 0 || amount.y != 0 || amount.z != 0;
+    if (shape->has_turbulence && (moves || pattern->type == PATTERN_AGATE)) {
+        pattern->has_turbulence = true;
+        pattern->turbulence = shape->turbulence;
     }
-    if (node->turbulent)
-        emit_gap(e, node->turbulence_loc,
-                 "turbulence is not modelled: the pattern keeps its straight lines");
+    switch (pattern->type) {
+    case PATTERN_GRADIENT:
+        pattern->gradient = shape->gradient;
+        break;
+    case PATTERN_AGATE:
+        pattern->has_turbulence = true;
+        pattern->agate_turb = shape->agate_turb;
+        break;
+    case PATTERN_BRICK:
+        pattern->brick_size = shape->brick_size;
+        pattern->mortar = shape->mortar;
+        break;
+    case PATTERN_CRACKLE:
+        pattern->crackle = shape->crackle;
+        break;
+    case PATTERN_QUILTED:
+        memcpy(pattern->quilted, shape->quilted, sizeof pattern->quilted);
+        break;
+    case PATTERN_SPIRAL1:
+    case PATTERN_SPIRAL2:
+        pattern->arms = shape->arms;
+        break;
+    default:
+        break;
+    }
 }
 
 static void copy_entries(Emitter *e, const PatternNode *node, Pigment *pigment) {
@@ -197,17 +226,13 @@ static void build_pigment(Emitter *e, const PatternNode *node, Pigment *pigment)
     }
     Pattern *pattern = &pigment->pattern;
     pattern->type = node->info->type;
-    pattern->wave = node->wave;
-    pattern->frequency = node->frequency;
-    pattern->phase = node->phase;
-    pattern->exponent = node->exponent;
-    if (pattern->type == PATTERN_GRADIENT)
-        pattern->gradient = node->gradient;
+    copy_shape(&node->shape, pattern);
     copy_warps(e, node, pattern);
     copy_entries(e, node, pigment);
 }
 
-// Field by field, since the padding of a struct may hold anything.
+// Field by field, since the padding of a struct may hold anything. What is left out here is rarely
+// the only difference; same_pigment looks at all.
 static uint64_t hash_pigment(const Pigment *p) {
     const Pattern *q = &p->pattern;
     uint64_t hash = HASH_START;
@@ -215,42 +240,22 @@ static uint64_t hash_pigment(const Pigment *p) {
     hash = hash_bytes(hash, &q->wave, sizeof q->wave);
     const float numbers[] = {q->frequency, q->phase, q->exponent};
     hash = hash_bytes(hash, numbers, sizeof numbers);
+    hash = hash_bytes(hash, &q->turbulence.amount, sizeof q->turbulence.amount);
     hash = hash_bytes(hash, &p->color, sizeof p->color);
     hash = hash_bytes(hash, p->entries, p->entry_count * sizeof *p->entries);
     for (uint32_t i = 0; i < q->warp_count; i++)
-        hash = hash_bytes(hash, &q->warps[i].transform, sizeof q->warps[i].transform);
+        if (q->warps[i].type == WARP_TRANSFORM)
+            hash = hash_bytes(hash, &q->warps[i].transform, sizeof q->warps[i].transform);
     return hash;
 }
 
-static bool same_bytes(const void *a, const void *b, size_t size) {
-    return size == 0 || memcmp(a, b, size) == 0;
-}
-
-static bool same_warps(const Pattern *a, const Pattern *b) {
-    if (a->warp_count != b->warp_count)
-        return false;
-    for (uint32_t i = 0; i < a->warp_count; i++)
-        if (a->warps[i].type != b->warps[i].type ||
-            !same_bytes(&a->warps[i].transform, &b->warps[i].transform, sizeof(Transform)))
-            return false;
-    return true;
-}
-
 static bool same_pigment(const Emitter *e, uint32_t index, const void *record) {
-    const Pigment *a = &e->pigments.items[index], *b = record;
-    const Pattern *p = &a->pattern, *q = &b->pattern;
-    return p->type == q->type && p->wave == q->wave && p->frequency == q->frequency &&
-           p->phase == q->phase && p->exponent == q->exponent &&
-           same_bytes(&p->gradient, &q->gradient, sizeof p->gradient) && same_warps(p, q) &&
-           same_bytes(&a->color, &b->color, sizeof a->color) && a->entry_count == b->entry_count &&
-           same_bytes(a->entries, b->entries, a->entry_count * sizeof *a->entries) &&
-           a->uv_mapping == b->uv_mapping && a->has_quick_color == b->has_quick_color &&
-           same_bytes(&a->quick_color, &b->quick_color, sizeof a->quick_color);
+    return pigment_equal(&e->pigments.items[index], record);
 }
 
 static uint32_t store_pigment(Emitter *e, const Pigment *pigment) {
     uint64_t hash = hash_pigment(pigment);
-    size_t slot;
+    size_t slot = 0;
     uint32_t index = intern_find(e, &e->pigment_table, hash, pigment, same_pigment, &slot);
     if (index != NO_INDEX)
         return index;

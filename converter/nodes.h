@@ -46,7 +46,7 @@ bool parse_move(Converter *cv, Move *move);
 // After the keyword `transform`: an identifier or a block.
 Transform parse_transform(Converter *cv);
 
-// ---- patterns: pattern.c, pattern_args.c, map.c, image.c
+// ---- patterns: pattern.c, pattern_args.c, warp.c, map.c, image.c
 // -----------------------------------------
 
 // In which kind of block a pattern stands.
@@ -55,8 +55,7 @@ const char *use_name(PatternUse use);
 
 typedef struct WarpNode {
     const struct WarpNode *next; // the one written before
-    const Loc *loc;              // a warp that is not modelled; NULL: a transform
-    Transform transform;
+    Warp warp;
 } WarpNode;
 
 typedef enum { MAP_COLOR, MAP_SLOPE, MAP_PIGMENT, MAP_NORMAL, MAP_TEXTURE, MAP_DENSITY } MapKind;
@@ -88,12 +87,8 @@ typedef struct {
 typedef struct {
     const PatternInfo *info;
     const Loc *loc; // of the keyword, if the pattern is not modelled
-    WaveType wave;
-    float frequency, phase, exponent;
-    Vec3 gradient;
+    Pattern shape;  // all but the type and the warps
     const WarpNode *warps;
-    bool turbulent;
-    const Loc *turbulence_loc;
     const MapNode *map; // NULL: the default one. uv_mapping: one item, the rest of the block
     Color color;        // one colour
     bool has_quick_color;
@@ -105,6 +100,9 @@ typedef struct {
 const PatternInfo *pattern_find(int keyword);
 PatternNode pattern_node_default(void);
 void pattern_move(Converter *cv, PatternNode *pattern, const Transform *transform);
+// turbulence, octaves, omega, lambda: if the next token is one, reads it.
+bool parse_turbulence(Converter *cv, PatternNode *pattern);
+void parse_warp(Converter *cv, PatternNode *pattern); // the block behind the keyword
 // The contents of a block: [pattern] modifiers, on top of what *pattern holds. Identifiers are the
 // caller's. `texture_map` and its like are read by the functions of texture.c.
 void parse_pattern(Converter *cv, PatternUse use, PatternNode *pattern);

@@ -4,62 +4,62 @@
 // kind and the few fields that belong to it; everything else stays as the base had it.
 #include "converter/nodes.h"
 
-#include <math.h>
+#include <string.h>
 
 #define OTHER PATTERN_MODELLED
 
 static const PatternInfo patterns[] = {
     {.keyword = 0, .type = PATTERN_PLAIN}, // no pattern: black
     {.keyword = KW_color, .type = PATTERN_PLAIN},
-    {.keyword = KW_agate, .type = OTHER},
+    {.keyword = KW_agate, .type = PATTERN_AGATE},
     {.keyword = KW_aoi, .type = OTHER},
-    {.keyword = KW_average, .type = OTHER},
-    {.keyword = KW_boxed, .type = OTHER},
-    {.keyword = KW_bozo, .type = OTHER},
-    {.keyword = KW_brick, .type = OTHER, .list = 2, .still = true},
+    {.keyword = KW_average, .type = PATTERN_AVERAGE},
+    {.keyword = KW_boxed, .type = PATTERN_BOXED},
+    {.keyword = KW_bozo, .type = PATTERN_BOZO},
+    {.keyword = KW_brick, .type = PATTERN_BRICK, .list = 2, .still = true},
     {.keyword = KW_bump_map, .type = OTHER, .still = true},
-    {.keyword = KW_bumps, .type = OTHER},
-    {.keyword = KW_cells, .type = OTHER},
+    {.keyword = KW_bumps, .type = PATTERN_BOZO},
+    {.keyword = KW_cells, .type = PATTERN_CELLS},
     {.keyword = KW_checker, .type = PATTERN_CHECKER, .list = 2, .still = true},
-    {.keyword = KW_crackle, .type = OTHER},
-    {.keyword = KW_cubic, .type = OTHER, .list = 6, .still = true},
-    {.keyword = KW_cylindrical, .type = OTHER},
+    {.keyword = KW_crackle, .type = PATTERN_CRACKLE},
+    {.keyword = KW_cubic, .type = PATTERN_CUBIC, .list = 6, .still = true},
+    {.keyword = KW_cylindrical, .type = PATTERN_CYLINDRICAL},
     {.keyword = KW_density_file, .type = OTHER},
-    {.keyword = KW_dents, .type = OTHER},
+    {.keyword = KW_dents, .type = PATTERN_DENTS},
     {.keyword = KW_facets, .type = OTHER},
     {.keyword = KW_function, .type = OTHER},
     {.keyword = KW_gradient, .type = PATTERN_GRADIENT},
-    {.keyword = KW_granite, .type = OTHER},
-    {.keyword = KW_hexagon, .type = OTHER, .list = 3, .still = true},
+    {.keyword = KW_granite, .type = PATTERN_GRANITE},
+    {.keyword = KW_hexagon, .type = PATTERN_HEXAGON, .list = 3, .still = true},
     {.keyword = KW_image_map, .type = OTHER, .still = true},
     {.keyword = KW_image_pattern, .type = OTHER, .still = true},
     {.keyword = KW_julia, .type = OTHER},
-    {.keyword = KW_leopard, .type = OTHER},
+    {.keyword = KW_leopard, .type = PATTERN_LEOPARD},
     {.keyword = KW_magnet, .type = OTHER},
     {.keyword = KW_mandel, .type = OTHER},
-    {.keyword = KW_marble, .type = OTHER, .triangle = true},
+    {.keyword = KW_marble, .type = PATTERN_MARBLE, .triangle = true},
     {.keyword = KW_material_map, .type = OTHER, .still = true},
     {.keyword = KW_object, .type = OTHER, .list = 2, .still = true},
-    {.keyword = KW_onion, .type = OTHER},
+    {.keyword = KW_onion, .type = PATTERN_ONION},
     {.keyword = KW_pavement, .type = OTHER},
     {.keyword = KW_pigment_pattern, .type = OTHER},
-    {.keyword = KW_planar, .type = OTHER},
-    {.keyword = KW_quilted, .type = OTHER, .still = true},
-    {.keyword = KW_radial, .type = OTHER},
-    {.keyword = KW_ripples, .type = OTHER},
+    {.keyword = KW_planar, .type = PATTERN_PLANAR},
+    {.keyword = KW_quilted, .type = PATTERN_QUILTED, .still = true},
+    {.keyword = KW_radial, .type = PATTERN_RADIAL},
+    {.keyword = KW_ripples, .type = PATTERN_RIPPLES},
     {.keyword = KW_slope, .type = OTHER},
-    {.keyword = KW_spherical, .type = OTHER},
-    {.keyword = KW_spiral1, .type = OTHER, .triangle = true},
-    {.keyword = KW_spiral2, .type = OTHER, .triangle = true},
-    {.keyword = KW_spotted, .type = OTHER},
-    {.keyword = KW_square, .type = OTHER, .list = 4, .still = true},
+    {.keyword = KW_spherical, .type = PATTERN_SPHERICAL},
+    {.keyword = KW_spiral1, .type = PATTERN_SPIRAL1, .triangle = true},
+    {.keyword = KW_spiral2, .type = PATTERN_SPIRAL2, .triangle = true},
+    {.keyword = KW_spotted, .type = PATTERN_BOZO},
+    {.keyword = KW_square, .type = PATTERN_SQUARE, .list = 4, .still = true},
     {.keyword = KW_tiles, .type = OTHER, .still = true},
     {.keyword = KW_tiling, .type = OTHER},
-    {.keyword = KW_triangular, .type = OTHER, .list = 6, .still = true},
+    {.keyword = KW_triangular, .type = PATTERN_TRIANGULAR, .list = 6, .still = true},
     {.keyword = KW_uv_mapping, .type = OTHER},
-    {.keyword = KW_waves, .type = OTHER},
-    {.keyword = KW_wood, .type = OTHER, .triangle = true},
-    {.keyword = KW_wrinkles, .type = OTHER},
+    {.keyword = KW_waves, .type = PATTERN_WAVES},
+    {.keyword = KW_wood, .type = PATTERN_WOOD, .triangle = true},
+    {.keyword = KW_wrinkles, .type = PATTERN_WRINKLES},
 };
 
 const PatternInfo *pattern_find(int keyword) {
@@ -75,19 +75,7 @@ const char *use_name(PatternUse use) {
 }
 
 PatternNode pattern_node_default(void) {
-    return (PatternNode){.info = pattern_find(0), .frequency = 1, .exponent = 1, .amount = 0.5F};
-}
-
-// Consecutive transforms are one (facts: textures 1.6).
-void pattern_move(Converter *cv, PatternNode *pattern, const Transform *transform) {
-    WarpNode *warp = ARENA_NEW(cv->arena, WarpNode);
-    const WarpNode *head = pattern->warps;
-    if (head && !head->loc)
-        *warp = (WarpNode){.next = head->next,
-                           .transform = transform_compose(&head->transform, transform)};
-    else
-        *warp = (WarpNode){.next = head, .transform = *transform};
-    pattern->warps = warp;
+    return (PatternNode){.info = pattern_find(0), .shape = pattern_default(), .amount = 0.5F};
 }
 
 static bool pattern_fits(PatternUse use, int keyword) {
@@ -136,29 +124,29 @@ static void parse_uv_mapping(Converter *cv, PatternUse use, PatternNode *pattern
 static bool parse_wave(Converter *cv, PatternNode *pattern, int code) {
     switch (code) {
     case KW_ramp_wave:
-        pattern->wave = WAVE_RAMP;
+        pattern->shape.wave = WAVE_RAMP;
         break;
     case KW_triangle_wave:
-        pattern->wave = WAVE_TRIANGLE;
+        pattern->shape.wave = WAVE_TRIANGLE;
         break;
     case KW_sine_wave:
-        pattern->wave = WAVE_SINE;
+        pattern->shape.wave = WAVE_SINE;
         break;
     case KW_scallop_wave:
-        pattern->wave = WAVE_SCALLOP;
+        pattern->shape.wave = WAVE_SCALLOP;
         break;
     case KW_cubic_wave:
-        pattern->wave = WAVE_CUBIC;
+        pattern->shape.wave = WAVE_CUBIC;
         break;
     case KW_poly_wave:
-        pattern->wave = WAVE_POLY;
+        pattern->shape.wave = WAVE_POLY;
         break;
     default:
         return false;
     }
     next_token(cv);
     if (code == KW_poly_wave && starts_expression(cv))
-        pattern->exponent = (float)parse_float(cv);
+        pattern->shape.exponent = (float)parse_float(cv);
     return true;
 }
 
@@ -196,26 +184,53 @@ static bool parse_map_modifier(Converter *cv, PatternUse use, PatternNode *patte
     return true;
 }
 
-// turbulence V. It is one value a pattern, wherever it is written; 0 switches it off.
-static void parse_turbulence(Converter *cv, PatternNode *pattern) {
-    const Token *token = next_token(cv);
-    Vec3 v = parse_vector(cv);
-    pattern->turbulent = v.x != 0.0 || v.y != 0.0 || v.z != 0.0;
-    pattern->turbulence_loc = pattern->turbulent ? keep_place(cv, token) : NULL;
+static bool parse_float_into(Converter *cv, float *value) {
+    next_token(cv);
+    *value = (float)parse_float(cv);
+    return true;
+}
+
+// Members of single patterns, each after its keyword.
+static bool parse_shape_modifier(Converter *cv, Pattern *shape, int code) {
+    switch (code) {
+    case KW_agate_turb:
+        shape->has_turbulence = true;
+        return parse_float_into(cv, &shape->agate_turb);
+    case KW_mortar:
+        return parse_float_into(cv, &shape->mortar);
+    case KW_control0:
+        return parse_float_into(cv, &shape->quilted[0]);
+    case KW_control1:
+        return parse_float_into(cv, &shape->quilted[1]);
+    case KW_brick_size:
+        next_token(cv);
+        shape->brick_size = parse_vector(cv);
+        return true;
+    case KW_form:
+        next_token(cv);
+        shape->crackle.form = parse_vector(cv);
+        return true;
+    case KW_metric: // a vector, of which one component counts
+        next_token(cv);
+        shape->crackle.metric = parse_vector(cv).x;
+        return true;
+    case KW_offset:
+        next_token(cv);
+        shape->crackle.offset = parse_float(cv);
+        return true;
+    case KW_solid:
+        next_token(cv);
+        shape->crackle.solid = true;
+        return true;
+    default:
+        return false;
+    }
 }
 
 // Numbers of patterns that are not modelled: { keyword, how many at least, how many at most }.
 static bool parse_number_modifier(Converter *cv, int code) {
     int most = 1;
     switch (code) {
-    case KW_octaves:
-    case KW_omega:
-    case KW_lambda:
-    case KW_agate_turb:
-    case KW_noise_generator:
-    case KW_mortar:
-    case KW_control0:
-    case KW_control1:
     case KW_coords:
     case KW_size:
     case KW_exponent:
@@ -242,68 +257,34 @@ static bool parse_number_modifier(Converter *cv, int code) {
     return true;
 }
 
-static bool parse_vector_modifier(Converter *cv, int code) {
-    if (code != KW_brick_size && code != KW_form && code != KW_metric && code != KW_offset)
-        return false;
-    next_token(cv);
-    parse_vector(cv);
-    return true;
-}
-
-// warp { KIND arguments }: kept as a place only.
-static void parse_warp(Converter *cv, PatternNode *pattern) {
-    const Token *token = next_token(cv);
-    expect(cv, '{', "warp");
-    for (;;) {
-        int code = peek_token(cv)->code;
-        if (code == KW_cylindrical || code == KW_spherical || code == KW_toroidal ||
-            code == KW_cubic || code == KW_inverse) {
-            next_token(cv);
-        } else if (code == KW_turbulence || code == KW_repeat || code == KW_offset ||
-                   code == KW_flip || code == KW_orientation) {
-            next_token(cv);
-            parse_vector(cv);
-        } else if (code == KW_black_hole || code == KW_planar) {
-            next_token(cv);
-            if (code == KW_black_hole || starts_expression(cv)) {
-                parse_vector(cv);
-                optional_comma(cv);
-                parse_float(cv);
-            }
-        } else if (code == KW_octaves || code == KW_omega || code == KW_lambda ||
-                   code == KW_strength || code == KW_falloff || code == KW_type ||
-                   code == KW_dist_exp || code == KW_major_radius) {
-            next_token(cv);
-            parse_float(cv);
-        } else if (code != ',') {
-            break;
-        } else {
-            next_token(cv);
-        }
-    }
-    expect(cv, '}', "warp");
-    WarpNode *warp = ARENA_NEW(cv->arena, WarpNode);
-    *warp = (WarpNode){.next = pattern->warps, .loc = keep_place(cv, token)};
-    pattern->warps = warp;
+// Written twice, the numbers are joined bit by bit, as POV-Ray keeps them.
+static void parse_noise_generator(Converter *cv, Pattern *shape) {
+    Loc loc = here(cv);
+    double number = parse_float(cv);
+    if (!(number > -1 && number < 4))
+        die_at(&loc, "noise_generator must be 0, 1, 2 or 3");
+    shape->noise_generator |= (int)number;
 }
 
 static bool parse_modifier(Converter *cv, PatternUse use, PatternNode *pattern) {
     Move move;
     int code = peek_token(cv)->code;
     switch (code) {
-    case KW_turbulence:
-        parse_turbulence(cv, pattern);
-        return true;
     case KW_warp:
+        next_token(cv);
         parse_warp(cv, pattern);
+        return true;
+    case KW_noise_generator:
+        next_token(cv);
+        parse_noise_generator(cv, &pattern->shape);
         return true;
     case KW_frequency:
         next_token(cv);
-        pattern->frequency = (float)parse_float(cv);
+        pattern->shape.frequency = (float)parse_float(cv);
         return true;
     case KW_phase:
         next_token(cv);
-        pattern->phase = (float)parse_float(cv);
+        pattern->shape.phase = (float)parse_float(cv);
         return true;
     case KW_quick_color:
     case KW_quick_colour: {
@@ -322,20 +303,40 @@ static bool parse_modifier(Converter *cv, PatternUse use, PatternNode *pattern) 
         pattern->amount = (float)parse_float(cv);
         return true;
     case KW_no_bump_scale:
-    case KW_solid:
         next_token(cv);
         return true;
     default:
         break;
     }
     if (parse_wave(cv, pattern, code) || parse_map_modifier(cv, use, pattern) ||
-        parse_number_modifier(cv, code) || parse_vector_modifier(cv, code))
+        parse_turbulence(cv, pattern) || parse_shape_modifier(cv, &pattern->shape, code) ||
+        parse_number_modifier(cv, code))
         return true;
     if (parse_move(cv, &move)) {
         pattern_move(cv, pattern, &move.t);
         return true;
     }
     return false;
+}
+
+// What a keyword sets besides the kind: the members that only this pattern has.
+static void begin_pattern(PatternNode *pattern, const PatternInfo *info) {
+    const Pattern standard = pattern_default();
+    Pattern *shape = &pattern->shape;
+    pattern->info = info;
+    if (info->triangle)
+        shape->wave = WAVE_TRIANGLE;
+    if (info->still)
+        shape->frequency = 0;
+    shape->agate_turb = standard.agate_turb;
+    shape->brick_size = standard.brick_size;
+    shape->mortar = standard.mortar;
+    memcpy(shape->quilted, standard.quilted, sizeof shape->quilted);
+    shape->crackle = standard.crackle;
+    shape->arms = standard.arms;
+    shape->gradient = standard.gradient;
+    if (info->type == PATTERN_AGATE)
+        shape->has_turbulence = true;
 }
 
 void parse_pattern(Converter *cv, PatternUse use, PatternNode *pattern) {
@@ -348,13 +349,9 @@ void parse_pattern(Converter *cv, PatternUse use, PatternNode *pattern) {
         pattern->color = parse_color(cv);
     } else if (info && pattern_fits(use, token->code)) {
         next_token(cv);
-        pattern->info = info;
+        begin_pattern(pattern, info);
         bool modelled = info->type != PATTERN_MODELLED && use != USE_TEXTURE;
         pattern->loc = modelled ? NULL : keep_place(cv, token);
-        if (info->triangle)
-            pattern->wave = WAVE_TRIANGLE;
-        if (info->still)
-            pattern->frequency = 0;
         if (info->keyword == KW_uv_mapping)
             parse_uv_mapping(cv, use, pattern);
         else

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What stands right behind a pattern's keyword (facts: sdl 4.6): numbers and vectors, images,
-// functions, objects, and the items of list patterns. Only `gradient` keeps its argument.
+// functions, objects, and the items of list patterns.
 #include "converter/nodes.h"
 
 #include <math.h>
@@ -17,7 +17,16 @@ static void parse_gradient(Converter *cv, PatternNode *pattern) {
     double length = vec_length(v);
     if (!(length > 0.0) || !isfinite(length))
         die_at(&loc, "the direction of a gradient must have a length");
-    pattern->gradient = vec_normalize(v);
+    pattern->shape.gradient = vec_normalize(v);
+}
+
+// POV-Ray keeps the number of arms as a short.
+static void parse_arms(Converter *cv, PatternNode *pattern) {
+    Loc loc = here(cv);
+    double arms = parse_float(cv);
+    if (!(arms > INT16_MIN - 1 && arms < INT16_MAX + 1))
+        die_at(&loc, "%g is no number of arms", arms);
+    pattern->shape.arms = (int)arms;
 }
 
 // slope V | slope { [point_at] V [, F, F] [altitude V [, F, F]] }
@@ -146,6 +155,8 @@ static void parse_number_pattern(Converter *cv, PatternNode *pattern) {
         break;
     case KW_spiral1:
     case KW_spiral2:
+        parse_arms(cv, pattern);
+        break;
     case KW_tiling:
         parse_float(cv);
         break;

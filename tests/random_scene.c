@@ -317,7 +317,8 @@ static Pigment make_pigment(Rng *rng, Arena *arena, uint32_t index) {
     for (uint32_t i = 0; i < p.entry_count; i++) {
         bool map = index > 0 && random_bool(rng);
         p.entries[i] = (MapEntry){
-            .value = random_float(rng),
+            // weights, where the pattern is the average: their sum must be something
+            .value = p.pattern.type == PATTERN_AVERAGE ? 1.5f : random_float(rng),
             .color = random_color(rng),
             .pigment = map ? random_below(rng, index) : NO_INDEX,
         };

@@ -333,8 +333,9 @@ static void gaps_are_said_when_used(void **state) {
                   "sphere { 0, 1 }");
     assert_warns("sphere { 0, 1 } blob { threshold 1 sphere { 0, 1, 1 } }",
                  "2:17: error: 'blob' is not modelled");
-    Converted result = convert_text("#declare I = 0; #while (I < 5) sphere { I, 1 pigment { wood } "
-                                    "normal { bumps } } #declare I = I + 1; #end");
+    Converted result =
+        convert_text("#declare I = 0; #while (I < 5) sphere { I, 1 pigment { tiling 3 } "
+                     "normal { bumps } } #declare I = I + 1; #end");
     assert_int_equal(result.warnings, 2); // once a place
     result = convert_text("#declare P = pigment { wood turbulence 1 scale 2 };\n");
     assert_int_equal(result.warnings, 1); // no object

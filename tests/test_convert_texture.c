@@ -137,13 +137,6 @@ static void transforms_reach_what_is_there(void **state) {
     const Pigment *b = pigment_of(s, child(s, root(s, 0), 1), 0);
     assert_vec(transform_point(&a->pattern.warps[0].transform, vec3(0, 0, 0)), 1, 0, 1);
     assert_vec(transform_point(&b->pattern.warps[0].transform, vec3(0, 0, 0)), 0, 0, 1);
-    // A warp between two transforms is left out, and says so; turbulence the same.
-    assert_warns("sphere { 0, 1 pigment { gradient x scale 2 warp { turbulence 1 } } }", "warp is");
-    assert_warns("sphere { 0, 1 pigment { checker turbulence 0.5 } }", "turbulence is");
-    assert_silent("sphere { 0, 1 pigment { checker turbulence 0 } }");
-    p = pigment("", "pigment { gradient x scale 2 warp { repeat x } translate x }");
-    assert_int_equal(p.pattern.warp_count, 1);
-    assert_vec(transform_point(&p.pattern.warps[0].transform, vec3(1, 0, 0)), 3, 0, 0);
 }
 
 static void layers(void **state) {
@@ -241,24 +234,105 @@ static void materials(void **state) {
 
 static void middle_colors(void **state) {
     (void)state;
-    Pigment p = pigment("", "pigment { bozo color_map { [0 rgb 0][1 rgb <1,0.5,0>] } }");
+    Pigment p = pigment("", "pigment { julia <0,1>, 5 color_map { [0 rgb 0][1 rgb <1,0.5,0>] } }");
     assert_int_equal(p.pattern.type, PATTERN_PLAIN);
     assert_color(p.color, 0.5, 0.25, 0, 0, 0);
-    p = pigment("", "pigment { wood color_map { [0.25 rgb 0][0.75 rgbt 1] } }");
+    p = pigment("", "pigment { slope y color_map { [0.25 rgb 0][0.75 rgbt 1] } }");
     assert_color(p.color, 0.5, 0.5, 0.5, 0, 0.5);
-    p = pigment("",
-                "pigment { granite pigment_map { [0 rgb x][0.5 checker rgb y rgb z][1 rgb 0] }}");
+    p = pigment("", "pigment { aoi pigment_map { [0 rgb x][0.5 checker rgb y rgb z][1 rgb 0] }}");
     assert_color(p.color, 0, 0.5, 0.5, 0, 0);
-    p = pigment("", "pigment { average pigment_map { [1 rgb x][1 rgb y] } }");
-    assert_color(p.color, 0.5, 0.5, 0, 0, 0);
     p = pigment("", "texture { bozo texture_map { [0 pigment { rgb x }][1 pigment { rgb y }] } }");
     assert_color(p.color, 0, 1, 0, 0, 0);
-    assert_warns("sphere { 0, 1 pigment { bozo } }", "the pattern 'bozo' is not modelled");
+    assert_warns("sphere { 0, 1 pigment { tiling 3 } }", "the pattern 'tiling' is not modelled");
     assert_warns("sphere { 0, 1 texture { bozo texture_map { [0 pigment { rgb 1 }] } } }",
                  "a texture with 'bozo'");
     assert_warns("sphere { 0, 1 pigment { image_map { png \"none.png\" once } } }", "grey");
     assert_warns("sphere { 0, 1 pigment { rgb 1 } normal { bumps 0.5 } }", "normal is not");
     assert_silent("sphere { 0, 1 pigment { rgb 1 } normal { bumps 0 } }");
+}
+
+// What belongs to single patterns; each keyword brings its defaults along.
+static void pattern_members(void **state) {
+    (void)state;
+    Pattern p = pigment("", "pigment { brick brick_size <1,2,3> mortar 0.25 }").pattern;
+    assert_vec(p.brick_size, 1, 2, 3);
+    assert_near(p.mortar, 0.25);
+    p = pigment("#declare B = pigment { brick mortar 0.25 }", "pigment { B brick }").pattern;
+    assert_near(p.mortar, 0.5);
+    p = pigment("#declare B = pigment { brick mortar 0.25 }", "pigment { B scale 2 }").pattern;
+    assert_near(p.mortar, 0.25);
+    p = pigment("", "pigment { quilted control0 0.5 control1 2 }").pattern;
+    assert_near(p.quilted[0], 0.5);
+    assert_near(p.quilted[1], 2);
+    assert_near(p.frequency, 0);
+    p = pigment("", "pigment { crackle form <1,2,3> metric 3 offset 0.5 solid }").pattern;
+    assert_vec(p.crackle.form, 1, 2, 3);
+    assert_near(p.crackle.metric, 3);
+    assert_near(p.crackle.offset, 0.5);
+    assert_true(p.crackle.solid);
+    p = pigment("", "pigment { spiral2 7 }").pattern;
+    assert_int_equal(p.arms, 7);
+    assert_int_equal(p.wave, WAVE_TRIANGLE);
+    p = pigment("", "pigment { bozo noise_generator 1 noise_generator 2 }").pattern;
+    assert_int_equal(p.noise_generator, 3);
+    p = pigment("", "pigment { agate agate_turb 0.75 }").pattern;
+    assert_near(p.agate_turb, 0.75);
+    assert_true(p.has_turbulence);
+    assert_int_equal(p.turbulence.octaves, 6);
+    Scene *s = scene_of("sphere { 0, 1 pigment { average pigment_map { [2 rgb x][bozo] } } }");
+    const Pigment *average = pigment_of(s, root(s, 0), 0);
+    assert_int_equal(average->pattern.type, PATTERN_AVERAGE);
+    assert_near(average->entries[0].value, 2);
+    assert_near(average->entries[1].value, 1);
+    assert_dies("sphere { 0, 1 pigment { bozo noise_generator 4 } }", "0, 1, 2 or 3");
+}
+
+// The pattern's own turbulence is one value; the warps are kept the last one first.
+static void warps(void **state) {
+    (void)state;
+    Pattern p = pigment("#declare M = pigment { marble turbulence 0.5 octaves 20 omega 0.25 }",
+                        "pigment { M lambda 3 scale 2 turbulence <1,2,3> }")
+                    .pattern;
+    assert_int_equal(p.warp_count, 1);
+    assert_true(p.has_turbulence);
+    assert_vec(p.turbulence.amount, 1, 2, 3);
+    assert_int_equal(p.turbulence.octaves, 10);
+    assert_near(p.turbulence.omega, 0.25);
+    assert_near(p.turbulence.lambda, 3);
+    assert_false(pigment("", "pigment { bozo octaves 3 }").pattern.has_turbulence);
+    p = pigment("", "pigment { bozo scale 2 rotate 30*y warp { repeat 2*y offset x flip <0,3,1> } "
+                    "warp { turbulence z octaves 2 } translate x warp { cubic } }")
+            .pattern;
+    assert_int_equal(p.warp_count, 5);
+    static const WarpType order[] = {WARP_CUBIC, WARP_TRANSFORM, WARP_TURBULENCE, WARP_REPEAT,
+                                     WARP_TRANSFORM};
+    for (int i = 0; i < 5; i++)
+        assert_int_equal(p.warps[i].type, order[i]);
+    assert_vec(p.warps[2].turbulence.amount, 0, 0, 1);
+    assert_int_equal(p.warps[2].turbulence.octaves, 2);
+    assert_int_equal(p.warps[3].repeat.axis, 1);
+    assert_near(p.warps[3].repeat.width, 2);
+    assert_vec(p.warps[3].repeat.offset, 1, 0, 0);
+    assert_vec(p.warps[3].repeat.flip, 1, -1, -1);
+    p = pigment("", "pigment { bozo warp { black_hole <0,1,0>, 0.5 strength 2 falloff 3 inverse "
+                    "repeat <4,0,1> turbulence <1,1,0.25> } warp { black_hole 0, 1 type 2 } "
+                    "warp { planar 2*y, 3 } warp { toroidal orientation x dist_exp 2 "
+                    "major_radius 0.5 } }")
+            .pattern;
+    assert_int_equal(p.warp_count, 3); // the hole of type 2 does nothing
+    assert_vec(p.warps[0].mapping.orientation, 1, 0, 0);
+    assert_near(p.warps[0].mapping.dist_exp, 2);
+    assert_near(p.warps[0].mapping.major_radius, 0.5);
+    assert_vec(p.warps[1].mapping.orientation, 0, 1, 0);
+    assert_near(p.warps[1].mapping.distance, 3);
+    const BlackHoleWarp *hole = &p.warps[2].black_hole;
+    assert_vec(hole->center, 0.5, 1, 0.5);     // inside its block
+    assert_vec(hole->repeat_size, 4, 0, 1.25); // with room for the shaking
+    assert_near(hole->falloff, 3);
+    assert_true(hole->inverse && hole->repeat);
+    assert_dies("sphere { 0, 1 pigment { bozo warp { repeat <1,1,0> } } }", "one axis only");
+    assert_dies("sphere { 0, 1 pigment { bozo warp { repeat 0 } } }", "axis");
+    assert_dies("sphere { 0, 1 pigment { bozo warp { scale 2 } } }", "kind of warp");
 }
 
 static void missing_patterns(void **state) {
@@ -377,6 +451,8 @@ int main(void) {
         cmocka_unit_test(finishes),
         cmocka_unit_test(materials),
         cmocka_unit_test(middle_colors),
+        cmocka_unit_test(pattern_members),
+        cmocka_unit_test(warps),
         cmocka_unit_test(missing_patterns),
         cmocka_unit_test(equal_textures_are_one),
         cmocka_unit_test(all_patterns_are_read),

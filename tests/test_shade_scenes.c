@@ -292,7 +292,6 @@ static void quality_levels(void **state) {
 // Patches with texture coordinates: checks in (u, v), once by the object's flag and once by the
 // pigment's; a patch lit on both sides, and one with a texture of its own behind and an index of
 // refraction.
-#pragma weak world_memory // only the real world has it, and patches
 static void add_patch(Fixture *f, int k, const char *text, Object object) {
     Vec3 *points = ARENA_ARRAY(f->arena, Vec3, 16);
     fixture_text(f, "bicubic_patch { type 1 flatness 0 u_steps 3 v_steps 3");
@@ -317,10 +316,6 @@ static void add_patch(Fixture *f, int k, const char *text, Object object) {
 
 static void patches(void **state) {
     (void)state;
-    if (world_memory == NULL) {
-        printf("skipped: no world with patches yet\n");
-        skip();
-    }
     Fixture *f = fixture_create(370);
     fixture_perspective(f, 96, 96, vec3(0.02, 0.51, -3.6));
     fixture_add_lights(f);

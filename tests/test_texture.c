@@ -243,7 +243,7 @@ static void far_away(void **state) {
     (void)state;
     static const double far[] = {1e17, -1e17, 2147483647.9, -2147483649.0, 3e15, -1e-300, 0.0};
     enum { COUNT = sizeof far / sizeof *far };
-    for (int type = PATTERN_CHECKER; type < PATTERN_MODELLED; type++)
+    for (int type = PATTERN_CHECKER; type < PATTERN_AVERAGE; type++)
         for (int i = 0; i < COUNT * COUNT * COUNT; i++) {
             Pattern pattern = turbulent(of_type((PatternType)type), 0.1, 0.2, 0.3);
             pattern.gradient = vec3(1, 0, 0);

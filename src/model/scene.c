@@ -122,6 +122,7 @@ Object object_default(ObjectType type) {
 // ORDER feature: sorted by byte, so that features in order give a sorted list.
 #define FEATURES(X)                                                                                \
     X(agate)                                                                                       \
+    X(average)                                                                                     \
     X(bezier_patch)                                                                                \
     X(bicubic_patch)                                                                               \
     X(box)                                                                                         \
@@ -225,12 +226,12 @@ static void need(FeatureSet *set, Feature feature, bool needed) { set->has[featu
 
 // ORDER pattern_type; a plain colour needs nothing.
 static const Feature PATTERN_FEATURES[PATTERN_MODELLED] = {
-    FEATURE_COUNT,       FEATURE_checker,   FEATURE_gradient, FEATURE_agate,   FEATURE_boxed,
-    FEATURE_bozo,        FEATURE_brick,     FEATURE_cells,    FEATURE_crackle, FEATURE_cubic,
-    FEATURE_cylindrical, FEATURE_dents,     FEATURE_granite,  FEATURE_hexagon, FEATURE_leopard,
-    FEATURE_marble,      FEATURE_onion,     FEATURE_planar,   FEATURE_quilted, FEATURE_radial,
-    FEATURE_ripples,     FEATURE_spherical, FEATURE_spiral1,  FEATURE_spiral2, FEATURE_square,
-    FEATURE_triangular,  FEATURE_waves,     FEATURE_wood,     FEATURE_wrinkles};
+    FEATURE_COUNT,       FEATURE_checker,   FEATURE_gradient, FEATURE_agate,    FEATURE_boxed,
+    FEATURE_bozo,        FEATURE_brick,     FEATURE_cells,    FEATURE_crackle,  FEATURE_cubic,
+    FEATURE_cylindrical, FEATURE_dents,     FEATURE_granite,  FEATURE_hexagon,  FEATURE_leopard,
+    FEATURE_marble,      FEATURE_onion,     FEATURE_planar,   FEATURE_quilted,  FEATURE_radial,
+    FEATURE_ripples,     FEATURE_spherical, FEATURE_spiral1,  FEATURE_spiral2,  FEATURE_square,
+    FEATURE_triangular,  FEATURE_waves,     FEATURE_wood,     FEATURE_wrinkles, FEATURE_average};
 
 // ORDER warp_type; transforms count as pattern_warp only.
 static const Feature WARP_FEATURES[] = {

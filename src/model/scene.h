@@ -100,6 +100,7 @@ typedef enum {
     PATTERN_WAVES,
     PATTERN_WOOD,
     PATTERN_WRINKLES,
+    PATTERN_AVERAGE,  // no value: the mean of the entries, weighted by theirs
     PATTERN_MODELLED, // patterns from here on are not in a Scene
 } PatternType;
 
@@ -364,6 +365,10 @@ Settings settings_default(void);
 Camera camera_default(void);
 Finish finish_default(void);
 Interior interior_default(void);
+// Are both the same, member by member and bit by bit? They may be of different scenes with the same
+// pools: pigments in maps are compared by index.
+bool pigment_equal(const Pigment *a, const Pigment *b);
+
 Turbulence turbulence_default(void); // without an amount
 Pattern pattern_default(void);
 Warp warp_default(WarpType type);

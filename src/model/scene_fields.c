@@ -109,7 +109,7 @@ static const char *const PATTERN_TYPE_NAMES[] = {
     "plain",   "checker",    "gradient",    "agate",  "boxed",    "bozo",      "brick",   "cells",
     "crackle", "cubic",      "cylindrical", "dents",  "granite",  "hexagon",   "leopard", "marble",
     "onion",   "planar",     "quilted",     "radial", "ripples",  "spherical", "spiral1", "spiral2",
-    "square",  "triangular", "waves",       "wood",   "wrinkles", NULL,
+    "square",  "triangular", "waves",       "wood",   "wrinkles", "average",   NULL,
 };
 _Static_assert(sizeof PATTERN_TYPE_NAMES / sizeof *PATTERN_TYPE_NAMES == PATTERN_MODELLED + 1,
                "a name for each pattern");
@@ -470,12 +470,46 @@ const Record SCENE_RECORD = {NULL, SCENE_FIELDS, sizeof(Scene), default_scene, N
 
 // ---- comparing ------------------------------------------------------------------------------
 
-static bool record_equal(const Record *record, const void *a, const void *b) {
-    for (const Field *field = record->fields; field->name; field++)
-        if (!field_equal(field, field_of(a, field->offset), field_of(b, field->offset)))
+static bool record_equal(const Record *record, const void *a, const void *b);
+
+// Both are lists, `a` and `b` the structs that hold them.
+static bool list_equal(const Field *field, const void *a, const void *b) {
+    uint32_t count = *(const uint32_t *)field_of(a, field->link);
+    const char *items_a = *(const void *const *)field_of(a, field->offset);
+    const char *items_b = *(const void *const *)field_of(b, field->offset);
+    if (count != *(const uint32_t *)field_of(b, field->link))
+        return false;
+    if (field->type == FIELD_INDICES)
+        return count == 0 || memcmp(items_a, items_b, count * sizeof(uint32_t)) == 0;
+    for (size_t i = 0; i < count; i++)
+        if (!record_equal(field->record, items_a + i * field->record->size,
+                          items_b + i * field->record->size))
             return false;
     return true;
 }
+
+static bool member_equal(const Field *field, const void *a, const void *b) {
+    if (field->type == FIELD_RECORDS || field->type == FIELD_INDICES)
+        return list_equal(field, a, b);
+    if (field->presence == FIELD_FLAGGED) {
+        bool present = *(const bool *)field_of(a, field->link);
+        if (present != *(const bool *)field_of(b, field->link))
+            return false;
+        if (!present)
+            return true;
+    }
+    return field_equal(field, field_of(a, field->offset), field_of(b, field->offset));
+}
+
+// The kind is the first field, so that both have the same fields after it.
+static bool record_equal(const Record *record, const void *a, const void *b) {
+    for (const Field *field = record->fields; field->name; field++)
+        if (field_belongs(record, field, a) && !member_equal(field, a, b))
+            return false;
+    return true;
+}
+
+bool pigment_equal(const Pigment *a, const Pigment *b) { return record_equal(&PIGMENT, a, b); }
 
 bool field_belongs(const Record *table, const Field *field, const void *record) {
     return field->kinds == 0 ||
@@ -520,7 +554,7 @@ bool field_equal(const Field *field, const void *a, const void *b) {
         return record_equal(field->record, a, b);
     case FIELD_RECORDS:
     case FIELD_INDICES:
-        return false; // lists are told apart by their counts, by the caller
+        return false; // lists need the counts beside them: list_equal
     }
     return memcmp(a, b, size) == 0;
 }

@@ -84,6 +84,13 @@ static void check_size(const Check *c, const FieldPath *up, const char *name, do
         refuse(c, &path, "%g is negative", value);
 }
 
+static void check_not_zero(const Check *c, const FieldPath *up, const char *name, double value) {
+    const FieldPath path = path_field(up, name);
+    check_numbers(c, up, name, &value, 1);
+    if (value == 0)
+        refuse(c, &path, "0 has no reciprocal");
+}
+
 static void check_range(const Check *c, const FieldPath *up, const char *name, int value, int low,
                         int high) {
     const FieldPath path = path_field(up, name);
@@ -182,11 +189,9 @@ static void check_turbulence(const Check *c, const FieldPath *path, const Turbul
 }
 
 static void check_repeat(const Check *c, const FieldPath *path, const RepeatWarp *repeat) {
-    const FieldPath width = path_field(path, "width"), flip = path_field(path, "flip");
+    const FieldPath flip = path_field(path, "flip");
     check_range(c, path, "axis", repeat->axis, 0, 2);
-    check_float(c, path, "width", repeat->width);
-    if (!(repeat->width > 0))
-        refuse(c, &width, "%g is not positive", (double)repeat->width);
+    check_not_zero(c, path, "width", repeat->width);
     check_vec3(c, path, "offset", repeat->offset);
     for (int i = 0; i < 3; i++)
         if (fabs(vec_get(repeat->flip, i)) != 1)
@@ -293,6 +298,15 @@ static void check_pattern(const Check *c, const FieldPath *path, const Pattern *
     }
 }
 
+static void check_weights(const Check *c, const FieldPath *path, const Pigment *pigment) {
+    float sum = 0;
+    for (uint32_t i = 0; i < pigment->entry_count; i++)
+        sum += pigment->entries[i].value;
+    const FieldPath map = path_field(path, "map");
+    if (sum == 0 || !isfinite(sum))
+        refuse(c, &map, "the weights add up to %g", (double)sum);
+}
+
 // Pigments refer to pigments through maps: a good one is looked at once, and one that is met again
 // on the way down leads to itself.
 static void check_pigment(Check *c, const FieldPath *path, uint32_t index, int depth) {
@@ -323,19 +337,14 @@ static void check_pigment(Check *c, const FieldPath *path, uint32_t index, int d
             check_pigment(c, &inner, entry->pigment, depth + 1);
         }
     }
+    if (pigment->pattern.type == PATTERN_AVERAGE)
+        check_weights(c, path, pigment);
     uint32_t least = least_entries(pigment->pattern.type);
     if (!plain && pigment->entry_count < least) {
         const FieldPath map = path_field(path, "map");
         refuse(c, &map, "%u entries, but the pattern has %u values", pigment->entry_count, least);
     }
     c->pigment_met[index] = 2;
-}
-
-static void check_not_zero(const Check *c, const FieldPath *up, const char *name, double value) {
-    const FieldPath path = path_field(up, name);
-    check_numbers(c, up, name, &value, 1);
-    if (value == 0)
-        refuse(c, &path, "0 has no reciprocal");
 }
 
 static void check_finish(const Check *c, const FieldPath *path, const Finish *f) {

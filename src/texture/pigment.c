@@ -45,6 +45,25 @@ static bool entry_color(const Scene *scene, const MapEntry *entry, const Texture
     return true;
 }
 
+// The mean of the entries by their weights; sums and weights are float.
+static Color average(const Scene *scene, const Pigment *pigment, const TexturePoint *at) {
+    Color sum = {0};
+    float total = 0.0f;
+    for (uint32_t i = 0; i < pigment->entry_count; i++) {
+        const MapEntry *entry = &pigment->entries[i];
+        Color c;
+        entry_color(scene, entry, at, &c);
+        sum.r += c.r * entry->value;
+        sum.g += c.g * entry->value;
+        sum.b += c.b * entry->value;
+        sum.filter += c.filter * entry->value;
+        sum.transmit += c.transmit * entry->value;
+        total += entry->value;
+    }
+    return (Color){sum.r / total, sum.g / total, sum.b / total, sum.filter / total,
+                   sum.transmit / total};
+}
+
 bool pigment_color(const Scene *scene, uint32_t index, const TexturePoint *at, Color *color) {
     assert(index < scene->pigment_count);
     const Pigment *pigment = &scene->pigments[index];
@@ -60,6 +79,10 @@ bool pigment_color(const Scene *scene, uint32_t index, const TexturePoint *at, C
     if (pigment->uv_mapping)
         inner.p = vec3(at->u, at->v, 0.0);
     inner.p = pattern_point(&pigment->pattern, inner.p);
+    if (pigment->pattern.type == PATTERN_AVERAGE) {
+        *color = average(scene, pigment, &inner);
+        return true;
+    }
     double v = pattern_value(&scene->settings, &pigment->pattern, inner.p);
     uint32_t i, j;
     map_find(pigment, v, &i, &j);

@@ -101,18 +101,15 @@ const TextureNode *texture_layer(Converter *cv, const TextureNode *top, const Te
         Loc loc = token ? token_loc(cv, token) : here(cv);
         die_at(&loc, "a patterned texture cannot be a layer over or under another texture");
     }
-    TextureNode *first = NULL, *last = NULL;
+    const TextureNode *first = NULL, **link = &first; // where the next copy hangs
     for (const TextureNode *t = top; t; t = t->below) {
         TextureNode *copy = copy_texture(cv, t);
         if (cv->version <= 310)
             copy->pigment = unfiltered_pigment(cv, copy->pigment);
-        if (last)
-            last->below = copy;
-        else
-            first = copy;
-        last = copy;
+        *link = copy;
+        link = &copy->below;
     }
-    last->below = below;
+    *link = below;
     return first;
 }
 

@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: MIT
+// The whole way of a texture: text, nodes, scene, picture. Each row is one texture on a curved
+// patch, rendered by POV-Ray and by us with POV-Ray's triangles, so that both meet the surface at
+// the same points. What may differ is a pixel on an edge between two triangles or two colours,
+// where the last bit of the point decides.
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+
+#include <cmocka.h>
+
+#include "base/array.h"
+#include "base/diag.h"
+#include "base/file.h"
+#include "converter/convert.h"
+#include "reference.h"
+#include "render/render.h"
+
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+// At most so many percent of the pixels may be off by more than a step of 8 bits. One of 1728
+// pixels is 0.06 %.
+static const double MOST_PERCENT = 0.5;
+static const char SIZE[] = "+W48 +H36 +FN16 File_Gamma=1.0 -A";
+
+static const char HEAD[] = "#version 3.7; global_settings { assumed_gamma 1 }\n"
+                           "camera { location <0.3,0.6,-6> look_at 0 angle 42 }\n"
+                           "light_source { <-5,8,-9> rgb 0.9 }\n"
+                           "light_source { <7,-3,-8> rgb 0.3 shadowless }\n";
+static const char PATCH[] = "bicubic_patch { type 1 flatness 0 u_steps 4 v_steps 4\n"
+                            "<-3.1,-2.3,0>, <-1.1,-2.6,-1.2>, <0.9,-2.4,1.1>, <3.2,-2.2,0.3>,\n"
+                            "<-3.3,-0.8,1.3>, <-1,-0.7,-2.4>, <1.1,-0.9,0.9>, <3.1,-0.8,-0.7>,\n"
+                            "<-3.2,0.9,-0.4>, <-0.9,0.8,1.9>, <1,0.7,-1.8>, <3.3,0.9,1.1>,\n"
+                            "<-3,2.4,0.6>, <-1.1,2.3,-0.9>, <0.8,2.5,0.7>, <3.1,2.3,-0.8>\n";
+
+typedef struct {
+    const char *include; // a file name, or ""
+    const char *text;    // what stands in the patch
+} Row;
+
+#define P(text)                                                                                    \
+    { "", "pigment { " text " }" }
+#define MAP " color_map { [0 rgb <0.9,0.1,0>] [0.3 rgb <0.1,0.8,0.2>] [0.7 rgb 1] [1 rgb 0.05] } "
+
+static const Row PATTERNS[] = {
+    P("agate agate_turb 0.7 scale 0.8"),
+    P("agate" MAP "turbulence <0.3,0.1,0.5> octaves 4 lambda 2.5 omega 0.4"),
+    P("average pigment_map { [1 bozo scale 0.4] [2.5 gradient y" MAP "] } rotate 20*z"),
+    P("boxed scale 3 translate 0.2"),
+    P("bozo scale 0.5"),
+    P("bozo" MAP "turbulence 0.6 scale <0.3,0.6,0.4> rotate 30 noise_generator 1"),
+    P("spotted scale 0.3 noise_generator 3"),
+    P("brick scale 0.15"),
+    P("brick pigment { gradient x scale 0.3 } pigment { bozo scale 0.2 } brick_size <1,0.5,0.7> "
+      "mortar 0.1 rotate 10"),
+    P("cells" MAP "scale 0.4 rotate <20,30,40>"),
+    P("checker rgb x turbulence 0.3 scale 0.7"),
+    P("crackle scale 0.6"),
+    P("crackle form <-0.7,0.9,0.4> metric 3 offset 0.1" MAP "scale 0.7"),
+    P("crackle solid scale 0.4 metric 1"),
+    P("cubic rotate <20,30,0> translate <0.3,0.2,0>"),
+    P("cubic rgb 0, rgb 1, rgb x rotate <-20,130,0>"),
+    P("cylindrical scale 2 rotate 90*x" MAP "frequency 3 phase 0.2 sine_wave"),
+    P("dents scale 0.3"),
+    P("gradient <1,2,0.5>" MAP "scallop_wave frequency 2"),
+    P("granite scale 2" MAP),
+    P("granite noise_generator 1 turbulence 0.2 sine_wave"),
+    P("hexagon rotate 80*x scale 0.4"),
+    P("hexagon pigment { marble } rotate 90*x scale 0.6"),
+    P("leopard scale 0.1"),
+    P("marble turbulence 0.7 scale 0.5"),
+    P("marble" MAP "warp { turbulence 0.5 } scale 0.7 rotate 40*y ramp_wave"),
+    P("onion scale 0.4 poly_wave 2"),
+    P("planar scale 2.5" MAP "cubic_wave turbulence 0.3"),
+    P("quilted control0 0.4 control1 0.8 scale 0.6"),
+    P("radial rotate 90*x frequency 6"),
+    P("ripples scale 0.3 frequency 1.5 phase 0.3"),
+    P("spherical scale 3 frequency 4 triangle_wave"),
+    P("spiral1 3 scale 0.8 turbulence 0.2"),
+    P("spiral2 5" MAP "scale 1.2"),
+    P("square rotate 75*x scale 0.5"),
+    P("triangular rotate 75*x scale 0.6"),
+    P("waves scale 0.4"),
+    P("wood scale 0.5"),
+    P("wood turbulence <0.2,0.1,0> octaves 3 scale 0.3 rotate <5,80,0>"),
+    P("wrinkles scale 0.7" MAP),
+};
+
+static const Row WARPS[] = {
+    P("gradient x" MAP "scale 0.5 warp { repeat 1.1*y offset <0.2,0,0> flip x }"),
+    P("radial warp { repeat 1.3*x flip <1,1,0> } warp { repeat 0.9*y } translate 0.2 rotate 7*z"),
+    P("checker rgb 0 rgb 1 scale 0.3 warp { black_hole <0.4,0.1,0>, 1.6 strength 1.5 falloff 3 }"),
+    P("checker scale 0.3 warp { black_hole <0,0,0>, 0.7 inverse repeat <2,1.8,2> "
+      "turbulence <0.4,0.3,0.2> }"),
+    P("gradient x" MAP "scale 0.1 warp { planar <1,1,1>, 0.3 } rotate 20"),
+    P("checker scale <0.1,0.2,1> warp { spherical orientation y dist_exp 1 }"),
+    P("checker scale <0.08,0.3,1> warp { cylindrical } rotate 80*x"),
+    P("checker scale <0.06,0.1,5> warp { toroidal orientation z dist_exp 0.5 major_radius 1.4 }"),
+    P("gradient y" MAP "scale 0.1 warp { cubic } rotate <30,20,10>"),
+    P("gradient x" MAP "scale 2 warp { turbulence <0.5,0.3,0.2> octaves 3 lambda 3 omega 0.6 } "
+      "rotate 30*z warp { turbulence 0.2 } scale 0.4 turbulence 0.3"),
+    {"", "uv_mapping pigment { bozo scale 0.1 warp { repeat 0.5*x } }"},
+    {"", "pigment { gradient y pigment_map { [0.2 rgb x] [0.3 wood scale 0.2 rotate 90*y] "
+         "[0.8 granite turbulence 0.4] } turbulence 0.3 }"},
+    {"", "texture { pigment { bozo scale 0.5 color_map { [0.3 rgb x] [0.6 rgbt 1] } } } "
+         "texture { pigment { spotted color_map { [0.4 rgbf 1] [0.5 rgb <0,0,1>] } scale 0.2 } } "},
+    {"", "pigment { bozo } #declare M = pigment { marble turbulence 0.4 color_map { [0 rgb x] "
+         "[1 rgb y] } scale 0.5 } #declare G = pigment { M gradient y } pigment { G }"},
+};
+
+#define T(file, name, more)                                                                        \
+    { file, "texture { " name " " more " }" }
+
+// Those with crand get their grain from a generator that POV-Ray steps on from pixel to pixel.
+static const Row INCLUDES[] = {
+    T("textures.inc", "Jade", "scale 0.7"),
+    T("textures.inc", "White_Marble", "scale 0.5"),
+    T("textures.inc", "Blood_Marble", ""),
+    T("textures.inc", "Blue_Agate", ""),
+    T("textures.inc", "Pink_Granite", ""),
+    T("textures.inc", "Cherry_Wood", "scale 0.5 rotate 80*y"),
+    T("textures.inc", "DMFWood4", "scale 0.6 rotate <3,70,0>"),
+    T("textures.inc", "Cork", ""),
+    {"textures.inc", "pigment { Blue_Sky scale 0.7 } finish { ambient 0.6 }"},
+    T("woods.inc", "T_Wood1", "scale 0.7 rotate 85*y"),
+    T("woods.inc", "T_Wood14", "scale 0.4"),
+    T("woods.inc", "T_Wood35", "scale 0.4"),
+    T("stones1.inc", "T_Stone1", ""),
+    T("stones1.inc", "T_Stone10", ""),
+    T("stones1.inc", "T_Grnt1", ""),
+    T("stones1.inc", "T_Grnt20", "finish { crand 0 }"),
+    T("stones1.inc", "T_Crack2", "scale 0.5"),
+    T("stones2.inc", "T_Stone28", ""),
+    T("stones2.inc", "T_Stone42", "finish { crand 0 }"),
+    T("skies.inc", "T_Cloud2", "scale 0.5"),
+    {"skies.inc", "pigment { P_Cloud3 scale 0.3 }"},
+};
+
+// Clear sheets in front of the patch, one behind the other. The first and the last of them belong
+// to one union, the glass in between does not: a ray that meets the last one leaves the air of that
+// union, if it is one air, and is not bent; it is bent if it enters another.
+#define SHEET(z, more)                                                                             \
+    "bicubic_patch { type 1 flatness 0 u_steps 3 v_steps 3 "                                       \
+    "<-3,-3,0>, <-1,-3,0.3>, <1,-3,-0.2>, <3,-3,0>, <-3,-1,0.1>, <-1,-1,-0.6>, <1,-1,0.7>, "       \
+    "<3,-1,0>, <-3,1,0>, <-1,1,0.4>, <1,1,-0.5>, <3,1,0>, <-3,3,0>, <-1,3,0.3>, <1,3,0>, "         \
+    "<3,3,0.2> rotate <20,25,0> translate " #z "*z " more " }\n"
+#define CLEAR "pigment { rgbt <0.9,1,0.9,0.95> } finish { diffuse 0.3 } "
+#define FRONT SHEET(-2.5, CLEAR)
+#define BACK SHEET(-1.5, CLEAR)
+#define SCENE(text)                                                                                \
+    {                                                                                              \
+        "", "pigment { checker rgb x rgb 1 scale 0.4 } }\n"                                        \
+            "object { " SHEET(-2, CLEAR "interior { ior 1.4 }") "}\n" text                         \
+    }
+
+static const Row INTERIORS[] = {
+    SCENE("union { " FRONT BACK),
+    SCENE("union { union { " FRONT SHEET(-2.4, CLEAR) "}" BACK),
+    SCENE(FRONT "object { " BACK),
+    SCENE("union { " FRONT SHEET(-2.2, CLEAR "interior { ior 1.2 }") BACK),
+    SCENE("union { " FRONT BACK "interior { ior 1.3 }"),
+};
+
+static const char *scene_text(Arena *arena, const Row *row) {
+    const char *include = "";
+    if (row->include[0])
+        include = arena_printf(arena, "#include \"colors.inc\"\n#include \"%s\"\n", row->include);
+    return arena_printf(arena, "%s%s%s%s }\n", HEAD, include, PATCH, row->text);
+}
+
+static Image *render_ours(Arena *arena, const char *text) {
+    char path[] = "/tmp/qipov-test-XXXXXX.pov";
+    int file = mkstemps(path, 4);
+    assert_true(file >= 0);
+    assert_int_equal(write(file, text, strlen(text)), strlen(text));
+    close(file);
+    char *line =
+        arena_printf(arena, "+I%s +L/usr/share/povray-3.7/include --method facets %s", path, SIZE);
+    char *words[16] = {arena_strdup(arena, "qirender")}, *save = NULL;
+    int count = 1;
+    for (char *w = strtok_r(line, " ", &save); w; w = strtok_r(NULL, " ", &save))
+        words[count++] = w;
+    RenderOptions options = options_default();
+    assert_true(options_parse(PROGRAM_QIRENDER, count, words, arena, &options));
+    options.verbose = false;
+    render_check(&options);
+    ImageWriteOptions written;
+    RenderStats stats;
+    Image *image = render_scene(convert_scene(&options, arena), &options, arena, &written, &stats);
+    unlink(path);
+    return image;
+}
+
+// How far apart the darkest and the lightest value of the picture are.
+static float contrast(const Image *image) {
+    float low = 1, high = 0;
+    for (int i = 0; i < image->width * image->height * image->channels; i++) {
+        low = image->pixels[i] < low ? image->pixels[i] : low;
+        high = image->pixels[i] > high ? image->pixels[i] : high;
+    }
+    return high - low;
+}
+
+// All of POV-Ray's pictures are made while ours are.
+static void check_rows(const Row *rows, size_t count) {
+    if (!reference_available()) {
+        print_message("skipped: povray is not installed\n");
+        skip();
+    }
+    Arena *arena = arena_create();
+    Reference **theirs = ARENA_ARRAY(arena, Reference *, count);
+    size_t bad = 0;
+    enum { AHEAD = 4 };
+    for (size_t i = 0; i < count + AHEAD; i++) {
+        if (i < count)
+            theirs[i] = reference_begin(arena, scene_text(arena, &rows[i]),
+                                        arena_printf(arena, "%s +WT1", SIZE));
+        if (i < AHEAD)
+            continue;
+        const Row *row = &rows[i - AHEAD];
+        size_t warnings = diag_warning_count();
+        Image *ours = render_ours(arena, scene_text(arena, row));
+        ImageDifference d =
+            image_compare(ours, reference_end(theirs[i - AHEAD]), 1.0 / 255, 1.0 / 255);
+        double percent = 100.0 * (double)d.failed / (double)d.pixels;
+        bool something = contrast(ours) > 0.15f; // to compare
+        bool good = something && percent <= MOST_PERCENT && diag_warning_count() == warnings;
+        bad += !good;
+        if (!good || getenv("SHOW_FIGURES"))
+            print_message("%5.2f %% off, at most %.4f of %.2f; %zu warnings: %s %.90s\n", percent,
+                          d.max, (double)contrast(ours), diag_warning_count() - warnings,
+                          row->include, row->text);
+    }
+    arena_destroy(arena);
+    assert_int_equal(bad, 0);
+}
+
+static void patterns(void **state) {
+    (void)state;
+    check_rows(PATTERNS, sizeof PATTERNS / sizeof *PATTERNS);
+}
+
+static void warps_and_maps(void **state) {
+    (void)state;
+    check_rows(WARPS, sizeof WARPS / sizeof *WARPS);
+}
+
+static void standard_textures(void **state) {
+    (void)state;
+    check_rows(INCLUDES, sizeof INCLUDES / sizeof *INCLUDES);
+}
+
+static void interiors(void **state) {
+    (void)state;
+    check_rows(INTERIORS, sizeof INTERIORS / sizeof *INTERIORS);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(patterns),
+        cmocka_unit_test(warps_and_maps),
+        cmocka_unit_test(standard_textures),
+        cmocka_unit_test(interiors),
+    };
+    return cmocka_run_group_tests_name("texture_scenes", tests, NULL, NULL);
+}

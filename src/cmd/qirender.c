@@ -5,6 +5,7 @@
 #include "base/progress.h"
 #include "base/version.h"
 #include "converter/convert.h"
+#include "options/animation.h"
 #include "render/render.h"
 
 #include <errno.h>
@@ -107,9 +108,10 @@ static void print_statistics(const RenderOptions *o, const RenderStats *s, doubl
 // ---- main
 // -----------------------------------------------------------------------------------------
 
-static void render_file(RenderOptions *o, Arena *arena) {
+// One picture: a scene read, rendered and written.
+static void render_picture(const RenderOptions *o) {
+    Arena *arena = arena_create();
     const char *output = options_output_path(o, arena, image_extension(o->format));
-    render_check(o);
     if (o->output_to_file)
         check_output(output, arena);
 
@@ -129,12 +131,41 @@ static void render_file(RenderOptions *o, Arena *arena) {
         if (o->output_to_file && strcmp(output, "-") != 0)
             fprintf(stderr, "%s\n", output);
     }
+    arena_destroy(arena);
+}
+
+// The scene is read anew for each frame: its clock can change everything in it.
+static void render_animation(const Animation *animation, RenderOptions *o) {
+    if (is_scene_file(o->input))
+        die("an animation needs the .pov scene: in '%s' nothing depends on the clock any more",
+            o->input);
+    const OptionFrame *frame = &animation->frame;
+    if (frame->initial == frame->final)
+        warn("the only frame is the initial and the final one: its clock is not a number (+Kx "
+             "without +KFF gives one picture)");
+    for (long number = animation->first; number <= animation->last; number += animation->step) {
+        animation_set_frame(animation, (int)number, o);
+        if (o->verbose)
+            fprintf(stderr, "frame %ld of %d to %d, clock %g\n", number, animation->first,
+                    animation->last, o->clock);
+        render_picture(o);
+    }
+}
+
+static void render(RenderOptions *o) {
+    Animation animation;
+    render_check(o);
+    if (animation_of(o, &animation))
+        render_animation(&animation, o);
+    else
+        render_picture(o);
 }
 
 int main(int argc, char **argv) {
     diag_program("qirender");
     Arena *arena = arena_create();
     RenderOptions options = options_default();
+    options_read_povray_ini(PROGRAM_QIRENDER, arena, &options);
     if (!options_parse(PROGRAM_QIRENDER, argc, argv, arena, &options))
         return 2;
     if (options.help) {
@@ -145,16 +176,17 @@ int main(int argc, char **argv) {
         puts("qirender " QIPOV_VERSION);
         return 0;
     }
+    diag_strict(options.strict);
+    diag_verbose(options.verbose);
+    options_report(&options);
     if (!options.input) {
         fputs("qirender: error: no scene given (qirender scene.pov; qirender --help)\n", stderr);
         return 2;
     }
     signal(SIGINT, on_interrupt);
     signal(SIGTERM, on_interrupt);
-    diag_strict(options.strict);
-    diag_verbose(options.verbose);
     options.input = options_input_path(&options, arena);
-    render_file(&options, arena);
+    render(&options);
     arena_destroy(arena);
     return 0;
 }

@@ -92,9 +92,21 @@ static bool apply_format(Parse *parse, const OptionRow *row, bool on, const char
     return true;
 }
 
+// Of the keyword's value only the letter counts, as for POV-Ray.
 static bool apply_format_keyword(Parse *parse, const OptionRow *row, bool on, const char *value) {
     (void)row, (void)on;
-    return read_format(parse, value);
+    RenderOptions *o = parse->options;
+    const RenderOptions before = *o;
+    if (!read_format(parse, value))
+        return false;
+    if (o->bits != before.bits || o->grayscale)
+        option_remark(parse, true,
+                      "POV-Ray reads only the letter of Output_File_Type=%s; the rest is "
+                      "Bits_Per_Color=n or Grayscale_Output=on",
+                      value);
+    o->bits = before.bits;
+    o->grayscale = before.grayscale;
+    return true;
 }
 
 static bool apply_file_gamma(Parse *parse, const OptionRow *row, bool on, const char *value) {
@@ -118,7 +130,7 @@ static bool apply_declare(Parse *parse, const OptionRow *row, bool on, const cha
 
     // POV-Ray hands the value on with six digits.
     char digits[40];
-    snprintf(digits, sizeof digits, "%.6g", number);
+    snprintf(digits, sizeof digits, "%.6g", (double)(float)number);
     RenderOptions *o = parse->options;
     OptionDeclare *grown = ARENA_ARRAY(parse->arena, OptionDeclare, o->declare_count + 1);
     if (o->declare_count)
@@ -150,6 +162,36 @@ static bool apply_clock(Parse *parse, const OptionRow *row, bool on, const char 
         return complain(parse, "the clock must be a number, as in +K0.5");
     parse->options->clock = (double)(float)clock;
     parse->options->clock_given = true;
+    return true;
+}
+
+// Single precision, as POV-Ray hands it around.
+static bool apply_float(Parse *parse, const OptionRow *row, bool on, const char *value) {
+    (void)on;
+    double number;
+    if (!option_number(value, &number))
+        return complain(parse, "a number must follow");
+    *(double *)((char *)parse->options + row->offset) = (double)(float)number;
+    return true;
+}
+
+static bool apply_include_ini(Parse *parse, const OptionRow *row, bool on, const char *value) {
+    (void)row, (void)on;
+    return option_ini(parse, value);
+}
+
+static bool apply_continue(Parse *parse, const OptionRow *row, bool on, const char *value) {
+    (void)row;
+    if (on && (!*value || option_truth(value)))
+        option_remark(parse, true,
+                      "Continue_Trace: an interrupted picture is rendered from its start");
+    return true;
+}
+
+static bool apply_command(Parse *parse, const OptionRow *row, bool on, const char *value) {
+    (void)on;
+    if (*value)
+        option_remark(parse, true, "%s: commands of the shell are not run", row->keyword);
     return true;
 }
 
@@ -224,6 +266,13 @@ static bool apply_tolerance(Parse *parse, const OptionRow *row, bool on, const c
         .kind = OPTION_UNSUPPORTED, .letters = (switch_letters), .keyword = (ini),                 \
         .programs = IN_ALL                                                                         \
     }
+
+#define COMMAND(ini)                                                                               \
+    {                                                                                              \
+        .kind = OPTION_SPECIAL, .keyword = (ini), .value = "command", .programs = IN_ALL,          \
+        .apply = apply_command                                                                     \
+    }
+#define FRAMES CLIP(-1e9, 1e9)
 
 // Where one switch sets two things in the INI form, the second stands below it without letters.
 const OptionRow option_rows[] = {
@@ -319,20 +368,60 @@ const OptionRow option_rows[] = {
     {OPTION_FLAG, NULL, NULL, "version", NULL, IN_ALL, FIELD(show_version),
      .help = "the version of this program"},
 
-    // Buffers, bounding, previews, consoles: no picture of ours depends on them.
-    IGNORED("MB", "Bounding", "n"),
-    IGNORED(NULL, "Bounding_Threshold", "n"),
+    HEADING("Animation"),
+    {OPTION_INT, "KFI", "Initial_Frame", NULL, "n", DRAWS, FIELD(initial_frame), FRAMES,
+     .help = "the number of the first frame (1)"},
+    {OPTION_INT, "KFF", "Final_Frame", NULL, "n", DRAWS, FIELD(final_frame), FRAMES,
+     .help = "the number of the last frame; makes it an animation, a picture a frame"},
+    {OPTION_SPECIAL, "KI", "Initial_Clock", NULL, "x", DRAWS, FIELD(initial_clock),
+     .apply = apply_float, .help = "the clock of the first frame (0)"},
+    {OPTION_SPECIAL, "KF", "Final_Clock", NULL, "x", DRAWS, FIELD(final_clock),
+     .apply = apply_float, .help = "the clock of the last frame (1)"},
+    {OPTION_FLAG, "KC", "Cyclic_Animation", NULL, NULL, DRAWS, FIELD(cyclic),
+     .help = "the frame after the last one would be the first again"},
+    {OPTION_NUMBER, "SF", "Subset_Start_Frame", NULL, "x", DRAWS, FIELD(subset_start), CLIP(0, 1e9),
+     .help = "render from this frame on; below 1 a share of the frames"},
+    {OPTION_NUMBER, "EF", "Subset_End_Frame", NULL, "x", DRAWS, FIELD(subset_end), CLIP(0, 1e9),
+     .help = "render up to this frame; below 1 a share of the frames"},
+    {OPTION_INT, "STP", "Frame_Step", NULL, "n", DRAWS, FIELD(frame_step), CLIP(1, 1e9),
+     .help = "render every nth frame (1)"},
+
+    {OPTION_INT, NULL, "Bits_Per_Colour", NULL, "n", DRAWS, FIELD(bits), CLIP(5, 16)},
+    {OPTION_SPECIAL, NULL, "Include_Ini", NULL, "name", IN_ALL, .apply = apply_include_ini},
+    {OPTION_SPECIAL, "C", "Continue_Trace", NULL, NULL, IN_ALL, .apply = apply_continue},
+    {OPTION_SPECIAL, "TH", "Dither", NULL, NULL, IN_ALL, .apply = apply_dither},
+    COMMAND("Pre_Scene_Command"),
+    COMMAND("Pre_Frame_Command"),
+    COMMAND("Post_Frame_Command"),
+    COMMAND("Post_Scene_Command"),
+    COMMAND("User_Abort_Command"),
+    COMMAND("Fatal_Error_Command"),
+
+    // Buffers, bounding, previews, fields, radiosity's files: no picture of ours depends on them.
+    IGNORED("B", "Bounding", NULL),
+    IGNORED("MB", "Bounding_Threshold", "n"),
     IGNORED("BM", "Bounding_Method", "n"),
+    IGNORED(NULL, "BSP_BaseAccessCost", "x"),
+    IGNORED(NULL, "BSP_ChildAccessCost", "x"),
+    IGNORED(NULL, "BSP_ISectCost", "x"),
+    IGNORED(NULL, "BSP_MaxDepth", "n"),
+    IGNORED(NULL, "BSP_MissChance", "x"),
     IGNORED("UR", "Remove_Bounds", NULL),
     IGNORED("SU", "Split_Unions", NULL),
     IGNORED("UL", "Light_Buffer", NULL),
     IGNORED("UV", "Vista_Buffer", NULL),
     IGNORED("UD", "Draw_Vistas", NULL),
-    IGNORED("C", "Continue_Trace", NULL),
+    IGNORED("UF", "Field_Render", NULL),
+    IGNORED("UO", "Odd_Field", NULL),
     IGNORED("X", "Test_Abort", "n"),
     IGNORED(NULL, "Test_Abort_Count", "n"),
     IGNORED("SP", "Preview_Start_Size", "n"),
     IGNORED("EP", "Preview_End_Size", "n"),
+    IGNORED("RP", "Render_Pattern", "n"),
+    IGNORED("RS", "Render_Block_Step", "n"),
+    IGNORED("RTR", "Real_Time_Raytracing", NULL),
+    IGNORED("MI", "Max_Image_Buffer_Memory", "n"),
+    IGNORED("HR", "High_Reproducibility", NULL),
     IGNORED("WL", "Warning_Level", "n"),
     IGNORED("GA", "All_Console", "name"),
     IGNORED("GD", "Debug_Console", "name"),
@@ -346,25 +435,30 @@ const OptionRow option_rows[] = {
     IGNORED(NULL, "Render_File", "name"),
     IGNORED(NULL, "Statistic_File", "name"),
     IGNORED(NULL, "Warning_File", "name"),
-    IGNORED("RFI", "Radiosity_File_Name", "name"),
-    IGNORED("RFO", NULL, "name"),
+    IGNORED("GP", "Append_File", NULL),
+    IGNORED("RF", "Radiosity_File_Name", "name"),
+    IGNORED("RFI", "Radiosity_From_File", NULL),
+    IGNORED("RFO", "Radiosity_To_File", NULL),
     IGNORED("RVP", "Radiosity_Vain_Pretrace", NULL),
-    IGNORED("QR", "High_Reproducibility", NULL),
+    IGNORED(NULL, "Pre_Scene_Return", "letter"),
+    IGNORED(NULL, "Pre_Frame_Return", "letter"),
+    IGNORED(NULL, "Post_Frame_Return", "letter"),
+    IGNORED(NULL, "Post_Scene_Return", "letter"),
+    IGNORED(NULL, "User_Abort_Return", "letter"),
+    IGNORED(NULL, "Fatal_Error_Return", "letter"),
+    IGNORED(NULL, "Palette", "letter"),
+    IGNORED(NULL, "Video_Mode", "letter"),
     IGNORED(NULL, "Display_Gamma", "x"),
     IGNORED(NULL, "Compression", "n"),
     IGNORED(NULL, "Dither_Method", "name"),
+    IGNORED(NULL, "Buffer_Output", NULL),
+    IGNORED(NULL, "Buffer_Size", "n"),
+    IGNORED(NULL, "Create_Histogram", NULL),
+    IGNORED(NULL, "Histogram_Name", "name"),
+    IGNORED(NULL, "Histogram_Grid_Size", "n"),
+    IGNORED(NULL, "Histogram_Type", "letter"),
 
-    {OPTION_SPECIAL, "TH", "Dither", NULL, NULL, IN_ALL, .apply = apply_dither},
-    UNSUPPORTED("KFI", "Initial_Frame"),
-    UNSUPPORTED("KFF", "Final_Frame"),
-    UNSUPPORTED("KI", "Initial_Clock"),
-    UNSUPPORTED("KF", "Final_Clock"),
-    UNSUPPORTED("KC", "Cyclic_Animation"),
-    UNSUPPORTED("SF", "Subset_Start_Frame"),
-    UNSUPPORTED("EF", "Subset_End_Frame"),
-    UNSUPPORTED("STP", "Frame_Step"),
-    UNSUPPORTED("UF", "Field_Render"),
-    UNSUPPORTED("UO", "Odd_Field"),
+    UNSUPPORTED("KLA", "Clockless_Animation"),
     UNSUPPORTED("HI", "Include_Header"),
     UNSUPPORTED("GI", "Create_Ini"),
 };

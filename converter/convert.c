@@ -119,6 +119,8 @@ Scene *convert_scene(const RenderOptions *options, Arena *arena) {
         die_at(&start_of_file, "the file is empty: there is no scene in it");
     cv->utf8 = source->utf8;
     push_file(cv, source, NULL);
+    if (options->include_header)
+        push_file(cv, source_open(cv, options->include_header, FILE_INCLUDE, &(Loc){0}), NULL);
     parse_scene_statements(cv);
     if (!cv->version_set)
         note_at(&start_of_file,

@@ -40,6 +40,8 @@ int main(int argc, char **argv) {
     }
     diag_strict(options.strict);
     options_report(&options);
+    if (options.create_ini)
+        options_write_ini(&options, options.create_ini);
     const Scene *scene = convert_scene(&options, arena);
     scene_write(scene, output, &(SceneWriteOptions){.binary = options.binary});
     arena_destroy(arena);

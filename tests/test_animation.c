@@ -117,8 +117,9 @@ static void names(void **state) {
 static const char scene[] =
     "#version 3.7;\n"
     "global_settings { assumed_gamma 1 }\n"
+    "#ifndef (Extra) #declare Extra = 0; #end\n"
     "#declare V = array[9] { clock, clock_on, frame_number, initial_frame, final_frame,\n"
-    "                        initial_clock, final_clock, clock_delta, Shift }\n"
+    "                        initial_clock, final_clock, clock_delta, Shift+Extra }\n"
     "camera { orthographic location <4.5, 2, -5> right 9*x up 4*y direction z }\n"
     "#for (I, 0, 8)\n"
     "  #for (J, 0, 3)\n"
@@ -151,7 +152,8 @@ static void equal_to_povray(void **state) {
         int first, last, files;
         const char *format; // of the names
     } cases[] = {
-        {"Final_Frame=3\nInitial_Clock=0.123456789\nFinal_Clock = 0.7\n", "t", 1, 3, 3, "s%d.png"},
+        {"Include_Header=h\nFinal_Frame=3\nInitial_Clock=0.123456789\nFinal_Clock = 0.7\n", "t", 1,
+         3, 3, "s%d.png"},
         {"Final_Frame=9\n+KC +STP4\nSubset_Start_Frame=2\nOutput_File_Name=out/pic.png\n"
          "[none]\nWidth=1\n",
          "t.ini", 2, 6, 2, "out/pic%02d.png"},
@@ -170,6 +172,8 @@ static void equal_to_povray(void **state) {
             mkdir(arena_printf(arena, "%s/out", dir), 0777);
             FILE *out = fopen(arena_printf(arena, "%s/s.pov", dir), "w");
             assert_true(out && fputs(scene, out) >= 0 && fclose(out) == 0);
+            out = fopen(arena_printf(arena, "%s/h.inc", dir), "w");
+            assert_true(out && fputs("#declare Extra = 12.345;\n", out) >= 0 && fclose(out) == 0);
             out = fopen(arena_printf(arena, "%s/t.ini", dir), "w");
             assert_true(out &&
                         fprintf(out,

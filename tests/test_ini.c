@@ -302,6 +302,52 @@ static void remarks(void **state) {
     assert_int_equal(o.bits, 8);
 }
 
+// The INI file that +GI writes gives the same options again.
+static void written(void **state) {
+    Arena *arena = *state;
+    static const char *const texts[] = {
+        "+Ia.pov\n",
+        "+I'my scene.pov' +O\"it's.png\" +W64 +H48 +FC +UA -J +A0.15 +R5 +AM2 +AG1.7 +Q4 +BS16 "
+        "+WT2\n"
+        "+SC0.1 +EC33 +SR2 +ER0.9 File_Gamma=1.8\n+KFI2\n+KFF7\n+KI0.1\n+KF1e-7\n+KC\n+SF0.3\n"
+        "+EF6\n+STP2\n+K0.3\n+MV3.62\n-V\n-D\n+P\nInclude_Header='h.inc'\n"
+        "Library_Path=a, 'b c'\nDeclare=X=0.123456789, Y=-3e10\n",
+        "+FP -F\nGrayscale_Output=on\nBits_Per_Color=12\n+Ix.pov\n",
+        "+FNg\nFile_Gamma=sRGB\n",
+    };
+    for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
+        RenderOptions a = read_ini(arena, texts[i], NULL);
+        options_write_ini(&a, "w.ini");
+        RenderOptions b = read_ini(arena, file_read(arena, "w.ini", NULL, NULL), NULL);
+        const char *const *strings[2][3] = {{&a.input, &a.output, &a.include_header},
+                                            {&b.input, &b.output, &b.include_header}};
+        for (int k = 0; k < 3; k++)
+            if (*strings[0][k])
+                assert_string_equal(*strings[0][k], *strings[1][k]);
+            else
+                assert_null(*strings[1][k]);
+        assert_int_equal(a.library_path_count, b.library_path_count);
+        for (size_t k = 0; k < a.library_path_count; k++)
+            assert_string_equal(a.library_paths[k], b.library_paths[k]);
+        assert_int_equal(a.declare_count, b.declare_count);
+        for (size_t k = 0; k < a.declare_count; k++) {
+            assert_string_equal(a.declares[k].name, b.declares[k].name);
+            assert_true(a.declares[k].value == b.declares[k].value);
+        }
+        // Pointers differ; the rest must not.
+        for (RenderOptions *o = &a; o; o = o == &a ? &b : NULL) {
+            o->input = o->output = o->include_header = NULL;
+            o->library_paths = o->shared = o->own = NULL;
+            o->declares = NULL;
+            o->remarks = NULL;
+            o->remark_count = 0;
+        }
+        if (memcmp(&a, &b, sizeof a) != 0)
+            fail_msg("%s\n%s", texts[i], file_read(arena, "w.ini", NULL, NULL));
+    }
+    unlink("w.ini");
+}
+
 static int create(void **state) {
     *state = arena_create();
     return 0;
@@ -333,7 +379,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         TEST(lines),          TEST(order),   TEST(rest_of_line), TEST(booleans),
         TEST(sections),       TEST(nested),  TEST(wrong_lines),  TEST(which_povray_ini),
-        TEST(other_programs), TEST(remarks), TEST(any_bytes),
+        TEST(other_programs), TEST(remarks), TEST(written),      TEST(any_bytes),
     };
     return cmocka_run_group_tests_name("ini", tests, enter, leave);
 }

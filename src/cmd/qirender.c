@@ -186,6 +186,8 @@ int main(int argc, char **argv) {
     signal(SIGINT, on_interrupt);
     signal(SIGTERM, on_interrupt);
     options.input = options_input_path(&options, arena);
+    if (options.create_ini)
+        options_write_ini(&options, options.create_ini);
     render(&options);
     arena_destroy(arena);
     return 0;

@@ -87,7 +87,9 @@ typedef struct {
     size_t shared_count;
     const char **own; // the words for qirender alone (--method ...), as given
     size_t own_count;
-    const char *povray_ini; // the one that was read; NULL: none
+    const char *povray_ini;     // the one that was read; NULL: none
+    const char *include_header; // read before the scene; NULL: none
+    const char *create_ini;     // where to write the settings; NULL: nowhere
     OptionRemark *remarks;
     size_t remark_count;
 } RenderOptions;
@@ -108,6 +110,10 @@ bool options_parse(OptionsProgram program, int argc, char **argv, Arena *arena,
 // before options_parse, whose words then win. With one, a size it does not give is POV-Ray's 160 x
 // 120; without one, the options stay as they are. Dies at what is wrong in it.
 void options_read_povray_ini(OptionsProgram program, Arena *arena, RenderOptions *options);
+
+// Writes the options as an INI file, which read again gives the same options: POV-Ray's, without
+// create_ini and what --words say. Dies if it cannot.
+void options_write_ini(const RenderOptions *options, const char *path);
 
 // Prints what the parsing had to remark. To be called when the diagnostics know of --strict and -V:
 // with the first a warning is an error.

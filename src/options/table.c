@@ -296,6 +296,10 @@ const OptionRow option_rows[] = {
      .help = "where includes are looked for; may be repeated; so is a bare folder/"},
     {OPTION_SPECIAL, NULL, "Declare", NULL, "name=x", IN_ALL, .apply = apply_declare,
      .help = "a number that the scene can use"},
+    {OPTION_TEXT, "HI", "Include_Header", NULL, "name", IN_ALL, FIELD(include_header),
+     .help = "a file that is included before the scene"},
+    {OPTION_TEXT, "GI", "Create_Ini", NULL, "name", IN_QIRENDER | IN_POV2QI, FIELD(create_ini),
+     .help = "write these settings to an INI file"},
     {OPTION_SPECIAL, "K", "Clock", NULL, "x", IN_ALL, .apply = apply_clock,
      .help = "the value of `clock`"},
     {OPTION_SPECIAL, "MV", "Version", NULL, "x", IN_ALL, .apply = apply_version,
@@ -459,7 +463,5 @@ const OptionRow option_rows[] = {
     IGNORED(NULL, "Histogram_Type", "letter"),
 
     UNSUPPORTED("KLA", "Clockless_Animation"),
-    UNSUPPORTED("HI", "Include_Header"),
-    UNSUPPORTED("GI", "Create_Ini"),
 };
 const size_t option_row_count = sizeof option_rows / sizeof *option_rows;

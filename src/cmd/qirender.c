@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // qirender: a scene to a picture. Options -> scene (converted from POV-Ray's language, or read) ->
 // render -> file -> statistics.
+#include "base/console.h"
 #include "base/diag.h"
 #include "base/progress.h"
 #include "base/version.h"
@@ -61,22 +62,23 @@ static double peak_megabytes(void) {
 
 static void print_count(const char *what, uint64_t count) {
     if (count)
-        fprintf(stderr, "  %-22s %15llu\n", what, (unsigned long long)count);
+        console_print(CONSOLE_STATISTIC, "  %-22s %15llu\n", what, (unsigned long long)count);
 }
 
 // A count and what it is of another ("1.07 a ray").
 static void print_share(const char *what, uint64_t count, uint64_t of, const char *unit) {
     if (count)
-        fprintf(stderr, "  %-22s %15llu   %.3g %s\n", what, (unsigned long long)count,
-                of ? (double)count / (double)of : 0.0, unit);
+        console_print(CONSOLE_STATISTIC, "  %-22s %15llu   %.3g %s\n", what,
+                      (unsigned long long)count, of ? (double)count / (double)of : 0.0, unit);
 }
 
 static void print_statistics(const RenderOptions *o, const RenderStats *s, double read_seconds) {
     const RayStats *r = &s->rays;
     const char *rule =
         "----------------------------------------------------------------------------";
-    fprintf(stderr, "%s\nRender statistics: %d x %d, %s, %d thread%s\n%s\n", rule, o->width,
-            o->height, patch_method_name(o->method), s->threads, s->threads == 1 ? "" : "s", rule);
+    console_print(CONSOLE_STATISTIC, "%s\nRender statistics: %d x %d, %s, %d thread%s\n%s\n", rule,
+                  o->width, o->height, patch_method_name(o->method), s->threads,
+                  s->threads == 1 ? "" : "s", rule);
     print_count("Pixels", s->pixels);
     print_count("Pixels supersampled", s->supersampled);
     print_share("Camera rays", s->samples, s->pixels, "a pixel");
@@ -95,14 +97,15 @@ static void print_statistics(const RenderOptions *o, const RenderStats *s, doubl
     print_count("Other shape tests", r->shape_tests);
     print_count("Other shape hits", r->shape_hits);
 
-    fprintf(stderr, "%s\n", rule);
-    fprintf(stderr, "  Reading the scene      %15.3f s\n", read_seconds);
-    fprintf(stderr, "  Preparing the patches  %15.3f s   %.1f MB\n", s->prepare_seconds,
-            (double)s->memory / 1e6);
-    fprintf(stderr, "  Tracing                %15.3f s   %.3g rays/s\n", s->trace_seconds,
-            s->trace_seconds > 0 ? (double)rays / s->trace_seconds : 0.0);
-    fprintf(stderr, "  Processor time         %15.3f s   peak memory %.0f MB\n%s\n", cpu_seconds(),
-            peak_megabytes(), rule);
+    console_print(CONSOLE_STATISTIC, "%s\n", rule);
+    console_print(CONSOLE_STATISTIC, "  Reading the scene      %15.3f s\n", read_seconds);
+    console_print(CONSOLE_STATISTIC, "  Preparing the patches  %15.3f s   %.1f MB\n",
+                  s->prepare_seconds, (double)s->memory / 1e6);
+    console_print(CONSOLE_STATISTIC, "  Tracing                %15.3f s   %.3g rays/s\n",
+                  s->trace_seconds, s->trace_seconds > 0 ? (double)rays / s->trace_seconds : 0.0);
+    console_print(CONSOLE_STATISTIC,
+                  "  Processor time         %15.3f s   peak memory %.0f MB\n%s\n", cpu_seconds(),
+                  peak_megabytes(), rule);
 }
 
 // ---- main
@@ -129,7 +132,7 @@ static void render_picture(const RenderOptions *o) {
     if (o->verbose) {
         print_statistics(o, &stats, read_seconds);
         if (o->output_to_file && strcmp(output, "-") != 0)
-            fprintf(stderr, "%s\n", output);
+            console_print(CONSOLE_RENDER, "%s\n", output);
     }
     arena_destroy(arena);
 }
@@ -146,8 +149,8 @@ static void render_animation(const Animation *animation, RenderOptions *o) {
     for (long number = animation->first; number <= animation->last; number += animation->step) {
         animation_set_frame(animation, (int)number, o);
         if (o->verbose)
-            fprintf(stderr, "frame %ld of %d to %d, clock %g\n", number, animation->first,
-                    animation->last, o->clock);
+            console_print(CONSOLE_RENDER, "frame %ld of %d to %d, clock %g\n", number,
+                          animation->first, animation->last, o->clock);
         render_picture(o);
     }
 }

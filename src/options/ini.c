@@ -324,6 +324,13 @@ void options_read_povray_ini(OptionsProgram program, Arena *arena, RenderOptions
 
 void options_report(const RenderOptions *options) {
     static const Loc nowhere;
+    for (int i = 0; i < CONSOLE_COUNT; i++) {
+        console_show((Console)i, options->console[i]);
+        if (options->all_file)
+            console_copy((Console)i, options->all_file, options->append_file);
+        if (options->console_file[i])
+            console_copy((Console)i, options->console_file[i], options->append_file);
+    }
     for (size_t i = 0; i < options->remark_count; i++) {
         const OptionRemark *remark = &options->remarks[i];
         const Loc *loc = remark->loc.file ? &remark->loc : &nowhere;

@@ -35,6 +35,7 @@ RenderOptions options_default(void) {
         .verbose = true,
         .method = METHOD_QI,
         .tolerance = patchset_options_default().tolerance,
+        .console = {true, true, true, true, true},
         .initial_frame = FRAME_NONE,
         .final_frame = FRAME_NONE,
         .final_clock = 1.0,

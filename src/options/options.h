@@ -6,6 +6,7 @@
 #define OPTIONS_OPTIONS_H
 
 #include "base/arena.h"
+#include "base/console.h"
 #include "base/diag.h"
 #include "image/image.h"
 #include "patch/patch.h"
@@ -74,6 +75,10 @@ typedef struct {
     int version;       // +MV x 100; 0: not given
     int threads;       // +WT; 0: all cores
     bool verbose, display, pause;
+    bool console[CONSOLE_COUNT];             // is the stream shown?
+    const char *console_file[CONSOLE_COUNT]; // a copy of it; NULL: none
+    const char *all_file;                    // one of all streams
+    bool append_file;                        // to files that are there
     PatchMethod method;
     double tolerance; // --tolerance, relative to the patch (PatchSetOptions)
     bool strict;
@@ -115,8 +120,8 @@ void options_read_povray_ini(OptionsProgram program, Arena *arena, RenderOptions
 // create_ini and what --words say. Dies if it cannot.
 void options_write_ini(const RenderOptions *options, const char *path);
 
-// Prints what the parsing had to remark. To be called when the diagnostics know of --strict and -V:
-// with the first a warning is an error.
+// Opens the streams of messages (base/console.h), then prints what the parsing had to remark. To be
+// called when the diagnostics know of --strict and -V: with the first a warning is an error.
 void options_report(const RenderOptions *options);
 
 // The text of --help for that program, on standard output.

@@ -195,6 +195,33 @@ static bool apply_command(Parse *parse, const OptionRow *row, bool on, const cha
     return true;
 }
 
+// Why a program ended is not hidden by -GA, as in POV-Ray; -GF does that.
+static void show_all(RenderOptions *o, bool on) {
+    for (int i = 0; i < CONSOLE_COUNT; i++)
+        if (on || i != CONSOLE_FATAL)
+            o->console[i] = on;
+}
+
+// +GD, -GD, +GDname, -GDname: is the stream shown, and where is its copy? The row's field is the
+// name of the copy.
+static bool apply_console(Parse *parse, const OptionRow *row, bool on, const char *value) {
+    RenderOptions *o = parse->options;
+    const char **file = (const char **)(void *)((char *)o + row->offset);
+    if (file == &o->all_file)
+        show_all(o, on);
+    else
+        o->console[file - o->console_file] = on;
+    if (*value)
+        *file = value;
+    return true;
+}
+
+static bool apply_all_console(Parse *parse, const OptionRow *row, bool on, const char *value) {
+    (void)row, (void)on;
+    show_all(parse->options, option_truth(value));
+    return true;
+}
+
 static bool apply_block_size(Parse *parse, const OptionRow *row, bool on, const char *value) {
     (void)row, (void)on;
     int size;
@@ -271,6 +298,19 @@ static bool apply_tolerance(Parse *parse, const OptionRow *row, bool on, const c
     {                                                                                              \
         .kind = OPTION_SPECIAL, .keyword = (ini), .value = "command", .programs = IN_ALL,          \
         .apply = apply_command                                                                     \
+    }
+#define STREAM(letters_of, name, which, what)                                                      \
+    {OPTION_SPECIAL,                                                                               \
+     letters_of,                                                                                   \
+     NULL,                                                                                         \
+     NULL,                                                                                         \
+     "[name]",                                                                                     \
+     IN_ALL,                                                                                       \
+     FIELD(console_file[which]),                                                                   \
+     .apply = apply_console,                                                                       \
+     .help = (what)},                                                                              \
+        {OPTION_FLAG, NULL, name "_Console", NULL, NULL, IN_ALL, FIELD(console[which])}, {         \
+        OPTION_TEXT, NULL, name "_File", NULL, "name", IN_ALL, FIELD(console_file[which])          \
     }
 #define FRAMES CLIP(-1e9, 1e9)
 
@@ -372,6 +412,19 @@ const OptionRow option_rows[] = {
     {OPTION_FLAG, NULL, NULL, "version", NULL, IN_ALL, FIELD(show_version),
      .help = "the version of this program"},
 
+    HEADING("Messages"),
+    {OPTION_SPECIAL, "GA", NULL, NULL, "[name]", IN_ALL, FIELD(all_file), .apply = apply_console,
+     .help = "shows all messages, -GA only errors; with a name, they are copied to that file"},
+    {OPTION_SPECIAL, NULL, "All_Console", NULL, "on|off", IN_ALL, .apply = apply_all_console},
+    {OPTION_TEXT, NULL, "All_File", NULL, "name", IN_ALL, FIELD(all_file)},
+    STREAM("GD", "Debug", CONSOLE_DEBUG, "likewise what the scene prints with #debug"),
+    STREAM("GF", "Fatal", CONSOLE_FATAL, "likewise errors"),
+    STREAM("GR", "Render", CONSOLE_RENDER, "likewise notes and progress"),
+    STREAM("GS", "Statistic", CONSOLE_STATISTIC, "likewise statistics"),
+    STREAM("GW", "Warning", CONSOLE_WARNING, "likewise warnings"),
+    {OPTION_FLAG, "GP", "Append_File", NULL, NULL, IN_ALL, FIELD(append_file),
+     .help = "appends to the files of messages that are there"},
+
     HEADING("Animation"),
     {OPTION_INT, "KFI", "Initial_Frame", NULL, "n", DRAWS, FIELD(initial_frame), FRAMES,
      .help = "the number of the first frame (1)"},
@@ -427,19 +480,6 @@ const OptionRow option_rows[] = {
     IGNORED("MI", "Max_Image_Buffer_Memory", "n"),
     IGNORED("HR", "High_Reproducibility", NULL),
     IGNORED("WL", "Warning_Level", "n"),
-    IGNORED("GA", "All_Console", "name"),
-    IGNORED("GD", "Debug_Console", "name"),
-    IGNORED("GF", "Fatal_Console", "name"),
-    IGNORED("GR", "Render_Console", "name"),
-    IGNORED("GS", "Statistic_Console", "name"),
-    IGNORED("GW", "Warning_Console", "name"),
-    IGNORED(NULL, "All_File", "name"),
-    IGNORED(NULL, "Debug_File", "name"),
-    IGNORED(NULL, "Fatal_File", "name"),
-    IGNORED(NULL, "Render_File", "name"),
-    IGNORED(NULL, "Statistic_File", "name"),
-    IGNORED(NULL, "Warning_File", "name"),
-    IGNORED("GP", "Append_File", NULL),
     IGNORED("RF", "Radiosity_File_Name", "name"),
     IGNORED("RFI", "Radiosity_From_File", NULL),
     IGNORED("RFO", "Radiosity_To_File", NULL),

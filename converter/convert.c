@@ -32,12 +32,18 @@ static void catch_interrupt(void) {
         signal(SIGINT, on_interrupt);
 }
 
-static void declare_float(Converter *cv, const char *name, double value) {
+// The first declaration of a name stays: the command line can replace what is built in.
+static void declare_value(Converter *cv, const char *name, Value value) {
     uint32_t n = name_intern(cv, name, strlen(name));
-    Symbol *symbol = name_symbol(cv, n);
-    if (!symbol)
-        symbol = symbol_add(cv, n, 0);
-    symbol->value = (Value){.type = VALUE_FLOAT, .c = {value}};
+    if (!name_symbol(cv, n))
+        symbol_add(cv, n, 0)->value = value;
+}
+
+// A number of the front end: it comes in single precision and with six significant digits.
+static void declare_float(Converter *cv, const char *name, double value) {
+    char digits[64];
+    snprintf(digits, sizeof digits, "%g", (double)(float)value);
+    declare_value(cv, name, (Value){.type = VALUE_FLOAT, .c = {strtod(digits, NULL)}});
 }
 
 static bool is_name(const char *s) {
@@ -46,33 +52,32 @@ static bool is_name(const char *s) {
     return s[strspn(s, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_")] == '\0';
 }
 
-// Six significant digits survive on POV-Ray's command line.
 static void declare_option(Converter *cv, const OptionDeclare *declare) {
-    char digits[64];
     if (!is_name(declare->name))
         die("Declare=%s: not a name", declare->name);
     for (int code = KW_FIRST; code < KW_END; code++) {
         if (strcmp(keyword_name(code), declare->name) == 0)
             die("Declare=%s: a reserved word cannot be declared", declare->name);
     }
-    snprintf(digits, sizeof digits, "%g", declare->value);
-    declare_float(cv, declare->name, strtod(digits, NULL));
+    declare_float(cv, declare->name, declare->value);
 }
 
 static void declare_initial(Converter *cv) {
     const RenderOptions *o = cv->options;
-    static const char *const animation[] = {"frame_number",  "initial_frame", "final_frame",
-                                            "initial_clock", "final_clock",   "clock_delta"};
-    declare_float(cv, "image_width", o->width);
-    declare_float(cv, "image_height", o->height);
-    for (size_t i = 0; i < sizeof animation / sizeof *animation; i++)
-        declare_float(cv, animation[i], 0);
-    const char *slash = strrchr(o->input, '/');
-    uint32_t name = name_intern(cv, "input_file_name", strlen("input_file_name"));
-    symbol_add(cv, name, 0)->value =
-        (Value){.type = VALUE_STRING, .string = slash ? slash + 1 : o->input};
+    const OptionFrame *f = &o->frame;
     for (size_t i = 0; i < o->declare_count; i++)
         declare_option(cv, &o->declares[i]);
+    declare_float(cv, "image_width", o->width);
+    declare_float(cv, "image_height", o->height);
+    declare_float(cv, "frame_number", f->number);
+    declare_float(cv, "initial_frame", f->initial);
+    declare_float(cv, "final_frame", f->final);
+    declare_float(cv, "initial_clock", f->initial_clock);
+    declare_float(cv, "final_clock", f->final_clock);
+    declare_float(cv, "clock_delta", f->clock_delta);
+    const char *slash = strrchr(o->input, '/');
+    declare_value(cv, "input_file_name",
+                  (Value){.type = VALUE_STRING, .string = slash ? slash + 1 : o->input});
 }
 
 static uint64_t token_limit(void) {
@@ -104,6 +109,8 @@ Scene *convert_scene(const RenderOptions *options, Arena *arena) {
     const Loc start_of_file = {.file = source->name, .line = 1, .column = 1};
     cv->utf8 = source->utf8;
     push_file(cv, source, NULL);
+    if (options->include_header)
+        push_file(cv, source_open(cv, options->include_header, FILE_INCLUDE, &(Loc){0}), NULL);
     parse_scene_statements(cv);
     if (!cv->version_set)
         note_at(&start_of_file,

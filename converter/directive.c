@@ -3,6 +3,8 @@
 // asked for and its '#' comes up; it leaves the stream at the token after it.
 #include "converter/language.h"
 
+#include "base/console.h"
+
 #include <stdio.h>
 #include <string.h>
 
@@ -147,7 +149,7 @@ void debug_text(Converter *cv, const char *text) {
             l->debug_line[l->debug_used++] = *p;
         if (*p == '\n') {
             l->debug_line[l->debug_used] = '\0';
-            fputs(l->debug_line, stderr);
+            console_print(CONSOLE_DEBUG, "%s", l->debug_line);
             l->debug_used = 0;
         }
     }

@@ -16,6 +16,7 @@ int main(int argc, char **argv) {
     diag_program("pov2qi");
     Arena *arena = arena_create();
     RenderOptions options = options_default();
+    options_read_povray_ini(PROGRAM_POV2QI, arena, &options);
     if (!options_parse(PROGRAM_POV2QI, argc, argv, arena, &options))
         return 2;
     if (options.help) {
@@ -38,6 +39,9 @@ int main(int argc, char **argv) {
         return 2;
     }
     diag_strict(options.strict);
+    options_report(&options);
+    if (options.create_ini)
+        options_write_ini(&options, options.create_ini);
     const Scene *scene = convert_scene(&options, arena);
     scene_write(scene, output, &(SceneWriteOptions){.binary = options.binary});
     arena_destroy(arena);

@@ -53,7 +53,16 @@ static void add_library(Converter *cv, const char *path) {
     list_push(cv, &cv->language->library, path);
 }
 
-// What the distribution's povray.ini names, then the command line, then POVINC: POV-Ray's order.
+static void add_given(Converter *cv) {
+    for (size_t i = 0; i < cv->options->library_path_count; i++)
+        add_library(cv, cv->options->library_paths[i]);
+    const char *env = getenv("POVINC");
+    if (env)
+        add_library(cv, arena_strdup(cv->arena, env));
+}
+
+// The folders of povray.ini, those of the command line, POVINC: POV-Ray's order. Without a
+// povray.ini what the distribution's says comes first; with another one it comes last.
 static void find_library(Converter *cv) {
     static const char *const standard[] = {
         "/usr/share/povray-3.7",
@@ -62,13 +71,11 @@ static void find_library(Converter *cv) {
         "/usr/local/share/povray-3.7",
         "/usr/local/share/povray-3.7/include",
     };
+    if (cv->options->povray_ini)
+        add_given(cv);
     for (size_t i = 0; i < sizeof standard / sizeof *standard; i++)
         add_library(cv, standard[i]);
-    for (size_t i = 0; i < cv->options->library_path_count; i++)
-        add_library(cv, cv->options->library_paths[i]);
-    const char *env = getenv("POVINC");
-    if (env)
-        add_library(cv, arena_strdup(cv->arena, env));
+    add_given(cv);
 }
 
 static const char *join(Converter *cv, const char *folder, const char *name) {

@@ -97,7 +97,7 @@ static void switches_and_keywords_agree(void **state) {
         {"-J", "Jitter=Off"},
         {"+J0.5", "Jitter=true Jitter_Amount=0.5"},
         {"+AG1.8", "Antialias_Gamma=1.8"},
-        {"+FN16", "Output_File_Type=n16"},
+        {"+FN16", "Output_File_Type=n Bits_Per_Colour=16"},
         {"+FT", "Output_File_Type=T Bits_Per_Color=8"},
         {"-F", "Output_to_File=0"},
         {"+UA", "Output_Alpha=1"},
@@ -109,6 +109,8 @@ static void switches_and_keywords_agree(void **state) {
          "Start_Column=2 End_Column=10.5 Start_Row=0.25 End_Row=0.75"},
         {"-V -D +P", "Verbose=false Display=no Pause_When_Done=on"},
         {"+W640 +W320", "Width=320"},
+        {"-GA +GD +GP", "All_Console=off Debug_Console=on Append_File=on"},
+        {"-GW +GS", "Warning_Console=no Statistic_Console=yes"},
     };
     for (size_t i = 0; i < sizeof pairs / sizeof *pairs; i++) {
         RenderOptions a = accept(arena, pairs[i][0]), b = accept(arena, pairs[i][1]);
@@ -184,6 +186,23 @@ static void harmless_switches(void **state) {
     assert_int_equal(o.width, 7);
 }
 
+// Streams of messages: shown or not, and where their copies go.
+static void message_streams(void **state) {
+    Arena *arena = *state;
+    RenderOptions o = accept(arena, "-GA +GSstats.txt -GFerrors.txt +GAall.txt -GW");
+    static const bool shown[CONSOLE_COUNT] = {true, true, true, true, false};
+    for (int i = 0; i < CONSOLE_COUNT; i++)
+        assert_int_equal(o.console[i], shown[i]);
+    assert_string_equal(o.console_file[CONSOLE_STATISTIC], "stats.txt");
+    assert_string_equal(o.console_file[CONSOLE_FATAL], "errors.txt");
+    assert_string_equal(o.all_file, "all.txt");
+    assert_null(o.console_file[CONSOLE_WARNING]);
+    o = accept(arena, "-GA");
+    assert_true(o.console[CONSOLE_FATAL] && !o.console[CONSOLE_DEBUG]);
+    assert_false(accept(arena, "-GF").console[CONSOLE_FATAL]);
+    assert_string_equal(accept(arena, "Debug_File=d.txt").console_file[CONSOLE_DEBUG], "d.txt");
+}
+
 static void wrong_words(void **state) {
     Arena *arena = *state;
     const struct {
@@ -220,8 +239,8 @@ static void wrong_words(void **state) {
         {"+BS3", "'+BS3'", "at least 4"},
         {"+BS", "'+BS'", "at least 4"},
         {"+Knan", "'+Knan'", "+K0.5"},
-        {"+KFF10", "'+KFF10'", "Final_Frame"},
-        {"+HIx.inc", "'+HIx.inc'", "Include_Header"},
+        {"+KFFx", "'+KFFx'", "number must follow"},
+        {"+KLA", "'+KLA'", "Clockless_Animation"},
         {"+TH", "'+TH'", "dithering"},
         {"quick.ini", "'quick.ini'", "INI"},
         {"teapot", "'teapot'", "neither"},
@@ -332,9 +351,16 @@ static int destroy(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        TEST(defaults),       TEST(switches_and_keywords_agree), TEST(values),
-        TEST(format_by_name), TEST(libraries_and_declares),      TEST(harmless_switches),
-        TEST(wrong_words),    TEST(words_of_the_other_programs), TEST(output_names),
+        TEST(defaults),
+        TEST(switches_and_keywords_agree),
+        TEST(values),
+        TEST(format_by_name),
+        TEST(libraries_and_declares),
+        TEST(harmless_switches),
+        TEST(message_streams),
+        TEST(wrong_words),
+        TEST(words_of_the_other_programs),
+        TEST(output_names),
         TEST(input_names),
     };
     return cmocka_run_group_tests_name("options", tests, NULL, NULL);

@@ -3,6 +3,9 @@
 // them (shell_patches.inc); it lies here five times, turned, scaled and coloured, outside and inside
 // with textures of their own. The sand's ripples are patches too.
 //
+// Must meet: with --method facets, at most 1 pixel in 10,000 differs from POV-Ray's by more than one step
+// of 8 bits (tests/test_pictures.c). With --method qi only POV-Ray's triangles make a difference.
+//
 //   povray +Iscenes/shells/shells.pov +Lscenes/shells +W640 +H400 +A0.3
 #version 3.7;
 global_settings { assumed_gamma 1.0 }

@@ -3,6 +3,8 @@
 // thread where it must be (the catch), per program else (flags set once by main or a test).
 #include "base/diag.h"
 
+#include "base/console.h"
+
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -86,7 +88,7 @@ _Noreturn static void raise_message(char *message) {
         innermost->message = message;
         longjmp(innermost->jump, 1);
     }
-    fprintf(stderr, "%s\n", message);
+    console_print(CONSOLE_FATAL, "%s\n", message);
     exit(1);
 }
 
@@ -112,7 +114,7 @@ static void warn_with(const Loc *loc, const char *format, va_list args) {
     if (strict)
         raise_message(message);
     if (!quiet)
-        fprintf(stderr, "%s\n", message);
+        console_print(CONSOLE_WARNING, "%s\n", message);
     free(message);
 }
 
@@ -137,7 +139,7 @@ void note_at(const Loc *loc, const char *format, ...) {
     va_start(args, format);
     char *message = build_message(loc, "note", format, args);
     va_end(args);
-    fprintf(stderr, "%s\n", message);
+    console_print(CONSOLE_RENDER, "%s\n", message);
     free(message);
 }
 

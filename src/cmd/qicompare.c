@@ -5,17 +5,16 @@
 #include "base/file.h"
 #include "base/progress.h"
 #include "base/version.h"
+#include "options/animation.h"
 #include "options/options.h"
 #include "report/compare_page.h"
 
-#include <ctype.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
@@ -123,18 +122,6 @@ static const char *machine_name(Arena *arena) {
                         cores == 1 ? "" : "s");
 }
 
-// Do the words given for both renderers set the size, so that it need not be said again?
-static bool names_size(const RenderOptions *o) {
-    bool width = false, height = false;
-    for (size_t k = 0; k < o->shared_count; k++) {
-        width |=
-            strncasecmp(o->shared[k] + 1, "W", 1) == 0 && isdigit((unsigned char)o->shared[k][2]);
-        height |=
-            strncasecmp(o->shared[k] + 1, "H", 1) == 0 && isdigit((unsigned char)o->shared[k][2]);
-    }
-    return width && height;
-}
-
 // Both renderers get the same words; qirender those with two dashes as well.
 static void render_both(const RenderOptions *o, const char *folder, ComparePage *page,
                         Arena *arena) {
@@ -153,17 +140,16 @@ static void render_both(const RenderOptions *o, const char *folder, ComparePage 
         Command command = {ARENA_ARRAY(arena, const char *, o->shared_count + o->own_count + 10),
                            0};
         add(&command, program[i]);
-        add(&command, arena_printf(arena, "+I%s", o->input));
-        add(&command, arena_printf(arena, "+O%s", picture));
-        if (!names_size(o)) {
-            add(&command, arena_printf(arena, "+W%d", o->width));
-            add(&command, arena_printf(arena, "+H%d", o->height));
-        }
         for (size_t k = 0; k < o->shared_count; k++)
             add(&command, o->shared[k]);
         add(&command, library);
         for (size_t k = 0; i == 1 && k < o->own_count; k++)
             add(&command, o->own[k]);
+        // Last: an INI file among the words may name another picture.
+        add(&command, arena_printf(arena, "+I%s", o->input));
+        add(&command, arena_printf(arena, "+O%s", picture));
+        add(&command, arena_printf(arena, "+W%d", o->width));
+        add(&command, arena_printf(arena, "+H%d", o->height));
         add(&command, "-D");
         add(&command, "-P");
         if (o->verbose)
@@ -255,6 +241,9 @@ static int check_words(const RenderOptions *o) {
     size_t length = o->input ? strlen(o->input) : 0;
     if (length > 5 && strcmp(o->input + length - 5, ".json") == 0)
         return usage("POV-Ray must render it too, so the scene must be a .pov");
+    Animation animation;
+    if (animation_of(o, &animation))
+        return usage("an animation is compared frame by frame: give its clock with +K");
     if (!o->output_to_file)
         return usage("-F writes no picture, so there is nothing to compare");
     if (o->output && (!*o->output || strcmp(o->output, "-") == 0))
@@ -273,6 +262,7 @@ int main(int argc, char **argv) {
     signal(SIGTERM, on_interrupt);
     Arena *arena = arena_create();
     RenderOptions options = options_default();
+    options_read_povray_ini(PROGRAM_QICOMPARE, arena, &options);
     if (!options_parse(PROGRAM_QICOMPARE, argc, argv, arena, &options))
         return 2;
     if (options.help) {

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 // qirender: a scene to a picture. Options -> scene (converted from POV-Ray's language, or read) ->
 // render -> file -> statistics.
+#include "base/console.h"
 #include "base/diag.h"
 #include "base/progress.h"
 #include "base/version.h"
 #include "converter/convert.h"
+#include "options/animation.h"
 #include "render/render.h"
 
 #include <errno.h>
@@ -60,22 +62,23 @@ static double peak_megabytes(void) {
 
 static void print_count(const char *what, uint64_t count) {
     if (count)
-        fprintf(stderr, "  %-22s %15llu\n", what, (unsigned long long)count);
+        console_print(CONSOLE_STATISTIC, "  %-22s %15llu\n", what, (unsigned long long)count);
 }
 
 // A count and what it is of another ("1.07 a ray").
 static void print_share(const char *what, uint64_t count, uint64_t of, const char *unit) {
     if (count)
-        fprintf(stderr, "  %-22s %15llu   %.3g %s\n", what, (unsigned long long)count,
-                of ? (double)count / (double)of : 0.0, unit);
+        console_print(CONSOLE_STATISTIC, "  %-22s %15llu   %.3g %s\n", what,
+                      (unsigned long long)count, of ? (double)count / (double)of : 0.0, unit);
 }
 
 static void print_statistics(const RenderOptions *o, const RenderStats *s, double read_seconds) {
     const RayStats *r = &s->rays;
     const char *rule =
         "----------------------------------------------------------------------------";
-    fprintf(stderr, "%s\nRender statistics: %d x %d, %s, %d thread%s\n%s\n", rule, o->width,
-            o->height, patch_method_name(o->method), s->threads, s->threads == 1 ? "" : "s", rule);
+    console_print(CONSOLE_STATISTIC, "%s\nRender statistics: %d x %d, %s, %d thread%s\n%s\n", rule,
+                  o->width, o->height, patch_method_name(o->method), s->threads,
+                  s->threads == 1 ? "" : "s", rule);
     print_count("Pixels", s->pixels);
     print_count("Pixels supersampled", s->supersampled);
     print_share("Camera rays", s->samples, s->pixels, "a pixel");
@@ -94,14 +97,15 @@ static void print_statistics(const RenderOptions *o, const RenderStats *s, doubl
     print_count("Other shape tests", r->shape_tests);
     print_count("Other shape hits", r->shape_hits);
 
-    fprintf(stderr, "%s\n", rule);
-    fprintf(stderr, "  Reading the scene      %15.3f s\n", read_seconds);
-    fprintf(stderr, "  Preparing the patches  %15.3f s   %.1f MB\n", s->prepare_seconds,
-            (double)s->memory / 1e6);
-    fprintf(stderr, "  Tracing                %15.3f s   %.3g rays/s\n", s->trace_seconds,
-            s->trace_seconds > 0 ? (double)rays / s->trace_seconds : 0.0);
-    fprintf(stderr, "  Processor time         %15.3f s   peak memory %.0f MB\n%s\n", cpu_seconds(),
-            peak_megabytes(), rule);
+    console_print(CONSOLE_STATISTIC, "%s\n", rule);
+    console_print(CONSOLE_STATISTIC, "  Reading the scene      %15.3f s\n", read_seconds);
+    console_print(CONSOLE_STATISTIC, "  Preparing the patches  %15.3f s   %.1f MB\n",
+                  s->prepare_seconds, (double)s->memory / 1e6);
+    console_print(CONSOLE_STATISTIC, "  Tracing                %15.3f s   %.3g rays/s\n",
+                  s->trace_seconds, s->trace_seconds > 0 ? (double)rays / s->trace_seconds : 0.0);
+    console_print(CONSOLE_STATISTIC,
+                  "  Processor time         %15.3f s   peak memory %.0f MB\n%s\n", cpu_seconds(),
+                  peak_megabytes(), rule);
 }
 
 // ---- main ----------------------------------------------------------------------------------
@@ -115,9 +119,10 @@ static void check_not_empty(const Scene *scene, const char *file) {
             file);
 }
 
-static void render_file(RenderOptions *o, Arena *arena) {
+// One picture: a scene read, rendered and written.
+static void render_picture(const RenderOptions *o) {
+    Arena *arena = arena_create();
     const char *output = options_output_path(o, arena, image_extension(o->format));
-    render_check(o);
     if (o->output_to_file)
         check_output(output, arena);
 
@@ -136,14 +141,43 @@ static void render_file(RenderOptions *o, Arena *arena) {
     if (o->verbose) {
         print_statistics(o, &stats, read_seconds);
         if (o->output_to_file && strcmp(output, "-") != 0)
-            fprintf(stderr, "%s\n", output);
+            console_print(CONSOLE_RENDER, "%s\n", output);
     }
+    arena_destroy(arena);
+}
+
+// The scene is read anew for each frame: its clock can change everything in it.
+static void render_animation(const Animation *animation, RenderOptions *o) {
+    if (is_scene_file(o->input))
+        die("an animation needs the .pov scene: in '%s' nothing depends on the clock any more",
+            o->input);
+    const OptionFrame *frame = &animation->frame;
+    if (frame->initial == frame->final)
+        warn("the only frame is the initial and the final one: its clock is not a number (+Kx "
+             "without +KFF gives one picture)");
+    for (long number = animation->first; number <= animation->last; number += animation->step) {
+        animation_set_frame(animation, (int)number, o);
+        if (o->verbose)
+            console_print(CONSOLE_RENDER, "frame %ld of %d to %d, clock %g\n", number,
+                          animation->first, animation->last, o->clock);
+        render_picture(o);
+    }
+}
+
+static void render(RenderOptions *o) {
+    Animation animation;
+    render_check(o);
+    if (animation_of(o, &animation))
+        render_animation(&animation, o);
+    else
+        render_picture(o);
 }
 
 int main(int argc, char **argv) {
     diag_program("qirender");
     Arena *arena = arena_create();
     RenderOptions options = options_default();
+    options_read_povray_ini(PROGRAM_QIRENDER, arena, &options);
     if (!options_parse(PROGRAM_QIRENDER, argc, argv, arena, &options))
         return 2;
     if (options.help) {
@@ -154,16 +188,19 @@ int main(int argc, char **argv) {
         puts("qirender " QIPOV_VERSION);
         return 0;
     }
+    diag_strict(options.strict);
+    diag_verbose(options.verbose);
+    options_report(&options);
     if (!options.input) {
         fputs("qirender: error: no scene given (qirender scene.pov; qirender --help)\n", stderr);
         return 2;
     }
     signal(SIGINT, on_interrupt);
     signal(SIGTERM, on_interrupt);
-    diag_strict(options.strict);
-    diag_verbose(options.verbose);
     options.input = options_input_path(&options, arena);
-    render_file(&options, arena);
+    if (options.create_ini)
+        options_write_ini(&options, options.create_ini);
+    render(&options);
     arena_destroy(arena);
     return 0;
 }

@@ -6,9 +6,12 @@
 #define OPTIONS_OPTIONS_H
 
 #include "base/arena.h"
+#include "base/console.h"
+#include "base/diag.h"
 #include "image/image.h"
 #include "patch/patch.h"
 
+#include <limits.h>
 #include <stdbool.h>
 #include <stddef.h>
 
@@ -16,6 +19,22 @@ typedef struct {
     const char *name;
     double value;
 } OptionDeclare;
+
+enum { FRAME_NONE = INT_MIN };
+
+// One frame of an animation, as the scene sees it; its clock is RenderOptions.clock.
+typedef struct {
+    int number, initial, final;
+    int digits; // of the number in the file's name; 0: no animation
+    double initial_clock, final_clock, clock_delta;
+} OptionFrame;
+
+// What is to be said of an option that was taken, but not followed.
+typedef struct {
+    Loc loc; // no file: on the command line
+    const char *text;
+    bool warning;
+} OptionRemark;
 
 typedef struct {
     const char *input;   // +I, Input_File_Name=, or a bare name ending in .pov or .json; NULL: none
@@ -46,9 +65,20 @@ typedef struct {
     size_t declare_count;
     double clock; // single precision, as POV-Ray has it
     bool clock_given;
-    int version; // +MV x 100; 0: not given
-    int threads; // +WT; 0: all cores
+    // Animation (animation.h).
+    int initial_frame, final_frame;    // FRAME_NONE: not given
+    double initial_clock, final_clock; // single precision
+    bool cyclic;
+    double subset_start, subset_end; // numbers of frames, or shares below 1; < 0: not given
+    int frame_step;
+    OptionFrame frame; // the one to render; zeroes: no animation
+    int version;       // +MV x 100; 0: not given
+    int threads;       // +WT; 0: all cores
     bool verbose, display, pause;
+    bool console[CONSOLE_COUNT];             // is the stream shown?
+    const char *console_file[CONSOLE_COUNT]; // a copy of it; NULL: none
+    const char *all_file;                    // one of all streams
+    bool append_file;                        // to files that are there
     PatchMethod method;
     double tolerance; // --tolerance, relative to the patch (PatchSetOptions)
     bool strict;
@@ -62,6 +92,11 @@ typedef struct {
     size_t shared_count;
     const char **own; // the words for qirender alone (--method ...), as given
     size_t own_count;
+    const char *povray_ini;     // the one that was read; NULL: none
+    const char *include_header; // read before the scene; NULL: none
+    const char *create_ini;     // where to write the settings; NULL: nowhere
+    OptionRemark *remarks;
+    size_t remark_count;
 } RenderOptions;
 
 // ORDER program: which words a program takes
@@ -74,6 +109,20 @@ RenderOptions options_default(void);
 // words after "--" are read like those before it.
 bool options_parse(OptionsProgram program, int argc, char **argv, Arena *arena,
                    RenderOptions *options);
+
+// Reads the povray.ini that POV-Ray would read: the first of $POVINI, ./povray.ini,
+// ~/.povray/3.7/povray.ini, /etc/povray/3.7/povray.ini, ~/.povrayrc, /etc/povray.ini. To be called
+// before options_parse, whose words then win. With one, a size it does not give is POV-Ray's 160 x
+// 120; without one, the options stay as they are. Dies at what is wrong in it.
+void options_read_povray_ini(OptionsProgram program, Arena *arena, RenderOptions *options);
+
+// Writes the options as an INI file, which read again gives the same options: POV-Ray's, without
+// create_ini and what --words say. Dies if it cannot.
+void options_write_ini(const RenderOptions *options, const char *path);
+
+// Opens the streams of messages (base/console.h), then prints what the parsing had to remark. To be
+// called when the diagnostics know of --strict and -V: with the first a warning is an error.
+void options_report(const RenderOptions *options);
 
 // The text of --help for that program, on standard output.
 void options_help(OptionsProgram program);

@@ -4,6 +4,7 @@
 
 #include "base/file.h"
 
+#include <stdio.h>
 #include <string.h>
 #include <strings.h>
 
@@ -51,14 +52,19 @@ const char *options_output_path(const RenderOptions *options, Arena *arena, cons
     const char *output = options->output, *input = options->input ? options->input : "scene";
     if (output && strcmp(output, "-") == 0)
         return output;
+    // A frame's number stands behind the name, before the extension.
+    char number[16] = "";
+    if (options->frame.digits)
+        snprintf(number, sizeof number, "%0*d", options->frame.digits, options->frame.number);
     bool folder = output && *output && output[strlen(output) - 1] == '/';
     if (!output || folder) {
         const char *slash = strrchr(input, '/');
         const char *name = folder && slash ? slash + 1 : input;
-        return arena_printf(arena, "%s%.*s.%s", folder ? output : "", (int)stem_length(name), name,
-                            extension);
+        return arena_printf(arena, "%s%.*s%s.%s", folder ? output : "", (int)stem_length(name),
+                            name, number, extension);
     }
-    if (has_extension(output, extension))
-        return output;
-    return arena_printf(arena, "%s.%s", output, extension);
+    if (!has_extension(output, extension))
+        return arena_printf(arena, "%s%s.%s", output, number, extension);
+    const char *dot = strrchr(output, '.');
+    return arena_printf(arena, "%.*s%s%s", (int)(dot - output), output, number, dot);
 }

@@ -92,9 +92,21 @@ static bool apply_format(Parse *parse, const OptionRow *row, bool on, const char
     return true;
 }
 
+// Of the keyword's value only the letter counts, as for POV-Ray.
 static bool apply_format_keyword(Parse *parse, const OptionRow *row, bool on, const char *value) {
     (void)row, (void)on;
-    return read_format(parse, value);
+    RenderOptions *o = parse->options;
+    const RenderOptions before = *o;
+    if (!read_format(parse, value))
+        return false;
+    if (o->bits != before.bits || o->grayscale)
+        option_remark(parse, true,
+                      "POV-Ray reads only the letter of Output_File_Type=%s; the rest is "
+                      "Bits_Per_Color=n or Grayscale_Output=on",
+                      value);
+    o->bits = before.bits;
+    o->grayscale = before.grayscale;
+    return true;
 }
 
 static bool apply_file_gamma(Parse *parse, const OptionRow *row, bool on, const char *value) {
@@ -118,7 +130,7 @@ static bool apply_declare(Parse *parse, const OptionRow *row, bool on, const cha
 
     // POV-Ray hands the value on with six digits.
     char digits[40];
-    snprintf(digits, sizeof digits, "%.6g", number);
+    snprintf(digits, sizeof digits, "%.6g", (double)(float)number);
     RenderOptions *o = parse->options;
     OptionDeclare *grown = ARENA_ARRAY(parse->arena, OptionDeclare, o->declare_count + 1);
     if (o->declare_count)
@@ -150,6 +162,63 @@ static bool apply_clock(Parse *parse, const OptionRow *row, bool on, const char 
         return complain(parse, "the clock must be a number, as in +K0.5");
     parse->options->clock = (double)(float)clock;
     parse->options->clock_given = true;
+    return true;
+}
+
+// Single precision, as POV-Ray hands it around.
+static bool apply_float(Parse *parse, const OptionRow *row, bool on, const char *value) {
+    (void)on;
+    double number;
+    if (!option_number(value, &number))
+        return complain(parse, "a number must follow");
+    *(double *)((char *)parse->options + row->offset) = (double)(float)number;
+    return true;
+}
+
+static bool apply_include_ini(Parse *parse, const OptionRow *row, bool on, const char *value) {
+    (void)row, (void)on;
+    return option_ini(parse, value);
+}
+
+static bool apply_continue(Parse *parse, const OptionRow *row, bool on, const char *value) {
+    (void)row;
+    if (on && (!*value || option_truth(value)))
+        option_remark(parse, true,
+                      "Continue_Trace: an interrupted picture is rendered from its start");
+    return true;
+}
+
+static bool apply_command(Parse *parse, const OptionRow *row, bool on, const char *value) {
+    (void)on;
+    if (*value)
+        option_remark(parse, true, "%s: commands of the shell are not run", row->keyword);
+    return true;
+}
+
+// Why a program ended is not hidden by -GA, as in POV-Ray; -GF does that.
+static void show_all(RenderOptions *o, bool on) {
+    for (int i = 0; i < CONSOLE_COUNT; i++)
+        if (on || i != CONSOLE_FATAL)
+            o->console[i] = on;
+}
+
+// +GD, -GD, +GDname, -GDname: is the stream shown, and where is its copy? The row's field is the
+// name of the copy.
+static bool apply_console(Parse *parse, const OptionRow *row, bool on, const char *value) {
+    RenderOptions *o = parse->options;
+    const char **file = (const char **)(void *)((char *)o + row->offset);
+    if (file == &o->all_file)
+        show_all(o, on);
+    else
+        o->console[file - o->console_file] = on;
+    if (*value)
+        *file = value;
+    return true;
+}
+
+static bool apply_all_console(Parse *parse, const OptionRow *row, bool on, const char *value) {
+    (void)row, (void)on;
+    show_all(parse->options, option_truth(value));
     return true;
 }
 
@@ -225,6 +294,26 @@ static bool apply_tolerance(Parse *parse, const OptionRow *row, bool on, const c
         .programs = IN_ALL                                                                         \
     }
 
+#define COMMAND(ini)                                                                               \
+    {                                                                                              \
+        .kind = OPTION_SPECIAL, .keyword = (ini), .value = "command", .programs = IN_ALL,          \
+        .apply = apply_command                                                                     \
+    }
+#define STREAM(letters_of, name, which, what)                                                      \
+    {OPTION_SPECIAL,                                                                               \
+     letters_of,                                                                                   \
+     NULL,                                                                                         \
+     NULL,                                                                                         \
+     "[name]",                                                                                     \
+     IN_ALL,                                                                                       \
+     FIELD(console_file[which]),                                                                   \
+     .apply = apply_console,                                                                       \
+     .help = (what)},                                                                              \
+        {OPTION_FLAG, NULL, name "_Console", NULL, NULL, IN_ALL, FIELD(console[which])}, {         \
+        OPTION_TEXT, NULL, name "_File", NULL, "name", IN_ALL, FIELD(console_file[which])          \
+    }
+#define FRAMES CLIP(-1e9, 1e9)
+
 // Where one switch sets two things in the INI form, the second stands below it without letters.
 const OptionRow option_rows[] = {
     HEADING("Input and output"),
@@ -247,6 +336,10 @@ const OptionRow option_rows[] = {
      .help = "where includes are looked for; may be repeated; so is a bare folder/"},
     {OPTION_SPECIAL, NULL, "Declare", NULL, "name=x", IN_ALL, .apply = apply_declare,
      .help = "a number that the scene can use"},
+    {OPTION_TEXT, "HI", "Include_Header", NULL, "name", IN_ALL, FIELD(include_header),
+     .help = "a file that is included before the scene"},
+    {OPTION_TEXT, "GI", "Create_Ini", NULL, "name", IN_QIRENDER | IN_POV2QI, FIELD(create_ini),
+     .help = "write these settings to an INI file"},
     {OPTION_SPECIAL, "K", "Clock", NULL, "x", IN_ALL, .apply = apply_clock,
      .help = "the value of `clock`"},
     {OPTION_SPECIAL, "MV", "Version", NULL, "x", IN_ALL, .apply = apply_version,
@@ -319,53 +412,96 @@ const OptionRow option_rows[] = {
     {OPTION_FLAG, NULL, NULL, "version", NULL, IN_ALL, FIELD(show_version),
      .help = "the version of this program"},
 
-    // Buffers, bounding, previews, consoles: no picture of ours depends on them.
-    IGNORED("MB", "Bounding", "n"),
-    IGNORED(NULL, "Bounding_Threshold", "n"),
+    HEADING("Messages"),
+    {OPTION_SPECIAL, "GA", NULL, NULL, "[name]", IN_ALL, FIELD(all_file), .apply = apply_console,
+     .help = "shows all messages, -GA only errors; with a name, they are copied to that file"},
+    {OPTION_SPECIAL, NULL, "All_Console", NULL, "on|off", IN_ALL, .apply = apply_all_console},
+    {OPTION_TEXT, NULL, "All_File", NULL, "name", IN_ALL, FIELD(all_file)},
+    STREAM("GD", "Debug", CONSOLE_DEBUG, "likewise what the scene prints with #debug"),
+    STREAM("GF", "Fatal", CONSOLE_FATAL, "likewise errors"),
+    STREAM("GR", "Render", CONSOLE_RENDER, "likewise notes and progress"),
+    STREAM("GS", "Statistic", CONSOLE_STATISTIC, "likewise statistics"),
+    STREAM("GW", "Warning", CONSOLE_WARNING, "likewise warnings"),
+    {OPTION_FLAG, "GP", "Append_File", NULL, NULL, IN_ALL, FIELD(append_file),
+     .help = "appends to the files of messages that are there"},
+
+    HEADING("Animation"),
+    {OPTION_INT, "KFI", "Initial_Frame", NULL, "n", DRAWS, FIELD(initial_frame), FRAMES,
+     .help = "the number of the first frame (1)"},
+    {OPTION_INT, "KFF", "Final_Frame", NULL, "n", DRAWS, FIELD(final_frame), FRAMES,
+     .help = "the number of the last frame; makes it an animation, a picture a frame"},
+    {OPTION_SPECIAL, "KI", "Initial_Clock", NULL, "x", DRAWS, FIELD(initial_clock),
+     .apply = apply_float, .help = "the clock of the first frame (0)"},
+    {OPTION_SPECIAL, "KF", "Final_Clock", NULL, "x", DRAWS, FIELD(final_clock),
+     .apply = apply_float, .help = "the clock of the last frame (1)"},
+    {OPTION_FLAG, "KC", "Cyclic_Animation", NULL, NULL, DRAWS, FIELD(cyclic),
+     .help = "the frame after the last one would be the first again"},
+    {OPTION_NUMBER, "SF", "Subset_Start_Frame", NULL, "x", DRAWS, FIELD(subset_start), CLIP(0, 1e9),
+     .help = "render from this frame on; below 1 a share of the frames"},
+    {OPTION_NUMBER, "EF", "Subset_End_Frame", NULL, "x", DRAWS, FIELD(subset_end), CLIP(0, 1e9),
+     .help = "render up to this frame; below 1 a share of the frames"},
+    {OPTION_INT, "STP", "Frame_Step", NULL, "n", DRAWS, FIELD(frame_step), CLIP(1, 1e9),
+     .help = "render every nth frame (1)"},
+
+    {OPTION_INT, NULL, "Bits_Per_Colour", NULL, "n", DRAWS, FIELD(bits), CLIP(5, 16)},
+    {OPTION_SPECIAL, NULL, "Include_Ini", NULL, "name", IN_ALL, .apply = apply_include_ini},
+    {OPTION_SPECIAL, "C", "Continue_Trace", NULL, NULL, IN_ALL, .apply = apply_continue},
+    {OPTION_SPECIAL, "TH", "Dither", NULL, NULL, IN_ALL, .apply = apply_dither},
+    COMMAND("Pre_Scene_Command"),
+    COMMAND("Pre_Frame_Command"),
+    COMMAND("Post_Frame_Command"),
+    COMMAND("Post_Scene_Command"),
+    COMMAND("User_Abort_Command"),
+    COMMAND("Fatal_Error_Command"),
+
+    // Buffers, bounding, previews, fields, radiosity's files: no picture of ours depends on them.
+    IGNORED("B", "Bounding", NULL),
+    IGNORED("MB", "Bounding_Threshold", "n"),
     IGNORED("BM", "Bounding_Method", "n"),
+    IGNORED(NULL, "BSP_BaseAccessCost", "x"),
+    IGNORED(NULL, "BSP_ChildAccessCost", "x"),
+    IGNORED(NULL, "BSP_ISectCost", "x"),
+    IGNORED(NULL, "BSP_MaxDepth", "n"),
+    IGNORED(NULL, "BSP_MissChance", "x"),
     IGNORED("UR", "Remove_Bounds", NULL),
     IGNORED("SU", "Split_Unions", NULL),
     IGNORED("UL", "Light_Buffer", NULL),
     IGNORED("UV", "Vista_Buffer", NULL),
     IGNORED("UD", "Draw_Vistas", NULL),
-    IGNORED("C", "Continue_Trace", NULL),
+    IGNORED("UF", "Field_Render", NULL),
+    IGNORED("UO", "Odd_Field", NULL),
     IGNORED("X", "Test_Abort", "n"),
     IGNORED(NULL, "Test_Abort_Count", "n"),
     IGNORED("SP", "Preview_Start_Size", "n"),
     IGNORED("EP", "Preview_End_Size", "n"),
+    IGNORED("RP", "Render_Pattern", "n"),
+    IGNORED("RS", "Render_Block_Step", "n"),
+    IGNORED("RTR", "Real_Time_Raytracing", NULL),
+    IGNORED("MI", "Max_Image_Buffer_Memory", "n"),
+    IGNORED("HR", "High_Reproducibility", NULL),
     IGNORED("WL", "Warning_Level", "n"),
-    IGNORED("GA", "All_Console", "name"),
-    IGNORED("GD", "Debug_Console", "name"),
-    IGNORED("GF", "Fatal_Console", "name"),
-    IGNORED("GR", "Render_Console", "name"),
-    IGNORED("GS", "Statistic_Console", "name"),
-    IGNORED("GW", "Warning_Console", "name"),
-    IGNORED(NULL, "All_File", "name"),
-    IGNORED(NULL, "Debug_File", "name"),
-    IGNORED(NULL, "Fatal_File", "name"),
-    IGNORED(NULL, "Render_File", "name"),
-    IGNORED(NULL, "Statistic_File", "name"),
-    IGNORED(NULL, "Warning_File", "name"),
-    IGNORED("RFI", "Radiosity_File_Name", "name"),
-    IGNORED("RFO", NULL, "name"),
+    IGNORED("RF", "Radiosity_File_Name", "name"),
+    IGNORED("RFI", "Radiosity_From_File", NULL),
+    IGNORED("RFO", "Radiosity_To_File", NULL),
     IGNORED("RVP", "Radiosity_Vain_Pretrace", NULL),
-    IGNORED("QR", "High_Reproducibility", NULL),
+    IGNORED(NULL, "Pre_Scene_Return", "letter"),
+    IGNORED(NULL, "Pre_Frame_Return", "letter"),
+    IGNORED(NULL, "Post_Frame_Return", "letter"),
+    IGNORED(NULL, "Post_Scene_Return", "letter"),
+    IGNORED(NULL, "User_Abort_Return", "letter"),
+    IGNORED(NULL, "Fatal_Error_Return", "letter"),
+    IGNORED(NULL, "Palette", "letter"),
+    IGNORED(NULL, "Video_Mode", "letter"),
     IGNORED(NULL, "Display_Gamma", "x"),
     IGNORED(NULL, "Compression", "n"),
     IGNORED(NULL, "Dither_Method", "name"),
+    IGNORED(NULL, "Buffer_Output", NULL),
+    IGNORED(NULL, "Buffer_Size", "n"),
+    IGNORED(NULL, "Create_Histogram", NULL),
+    IGNORED(NULL, "Histogram_Name", "name"),
+    IGNORED(NULL, "Histogram_Grid_Size", "n"),
+    IGNORED(NULL, "Histogram_Type", "letter"),
 
-    {OPTION_SPECIAL, "TH", "Dither", NULL, NULL, IN_ALL, .apply = apply_dither},
-    UNSUPPORTED("KFI", "Initial_Frame"),
-    UNSUPPORTED("KFF", "Final_Frame"),
-    UNSUPPORTED("KI", "Initial_Clock"),
-    UNSUPPORTED("KF", "Final_Clock"),
-    UNSUPPORTED("KC", "Cyclic_Animation"),
-    UNSUPPORTED("SF", "Subset_Start_Frame"),
-    UNSUPPORTED("EF", "Subset_End_Frame"),
-    UNSUPPORTED("STP", "Frame_Step"),
-    UNSUPPORTED("UF", "Field_Render"),
-    UNSUPPORTED("UO", "Odd_Field"),
-    UNSUPPORTED("HI", "Include_Header"),
-    UNSUPPORTED("GI", "Create_Ini"),
+    UNSUPPORTED("KLA", "Clockless_Animation"),
 };
 const size_t option_row_count = sizeof option_rows / sizeof *option_rows;

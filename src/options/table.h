@@ -51,13 +51,35 @@ struct Parse {
     OptionsProgram program;
     RenderOptions *options;
     Arena *arena;
-    char why[160]; // what is wrong with a value
+    Loc loc;         // of the word in an INI file; no file: it stands on the command line
+    int depth;       // INI files that name INI files
+    bool povray_ini; // POV-Ray's own, of which nothing is remarked
+    char why[160];   // what is wrong with a value
 };
+
+// One word each. A wrong one is refused (option_refuse). next: the word behind it, or NULL; *used
+// counts the words taken.
+bool option_switch(Parse *parse, const char *word, const char *next, int *used); // +X, -X
+bool option_word(Parse *parse, const char *word, const char *next, int *used);   // --word
+// keyword=value; length: that of the keyword. Quotes around the value are removed.
+bool option_assign(Parse *parse, const char *word, size_t length, const char *value);
+bool option_name(Parse *parse, const char *word); // a scene, a folder, a picture, an INI file
+bool option_ini(Parse *parse, const char *word);  // file, file.ini, file.ini[Section]
+
+// The row of a keyword, or NULL.
+const OptionRow *option_keyword(const Parse *parse, const char *name, size_t length);
+
+// On the command line prints the message and returns false; in an INI file dies there.
+bool option_refuse(const Parse *parse, const char *word, const char *why);
+// For options_report.
+void option_remark(Parse *parse, bool warning, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
 
 // The whole text as a number; false (and *out untouched) if it is none, or not finite.
 bool option_number(const char *text, double *out);
 bool option_integer(const char *text, int *out); // out of range: the nearest int
-// on, yes, true, 1 ... are true; anything else is false, as for POV-Ray.
+// True for what begins as on, true, yes or 1 do, up to the end of the shorter: "onward", "t" and
+// nothing at all are true as well, as for POV-Ray.
 bool option_truth(const char *text);
 const char *option_program_name(OptionsProgram program);
 

@@ -192,7 +192,8 @@ Image *render_scene(const Scene *scene, const RenderOptions *o, Arena *arena,
         stats->pixels = (uint64_t)wide * (uint64_t)high;
         if (stats->threads > job.count)
             stats->threads = job.count;
-        job.progress = progress_begin("rendering", stats->pixels, o->verbose);
+        job.progress =
+            progress_begin("rendering", stats->pixels, o->verbose && o->console[CONSOLE_RENDER]);
         render_tiles(&job, stats);
         progress_end(&job.progress);
     }

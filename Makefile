@@ -2,7 +2,7 @@
 #   make         build the four programs into build/
 #   make demo    install what is missing, render the teapot with QI and with POV-Ray, compare
 #   make test    install what is missing, build, run all tests (AddressSanitizer, UBSan)
-#   make deps lint gallery bench clean
+#   make gallery the pictures of README; make bench its table of speed; make deps lint clean
 MAKEFLAGS += --no-builtin-rules
 .DELETE_ON_ERROR:
 .SECONDARY:
@@ -101,5 +101,9 @@ gallery: deps
 	@$(MAKE) --no-print-directory -j$$(nproc) all
 	@tests/gallery.sh
 
-.PHONY: all deps test lint demo gallery clean
+bench: deps
+	@$(MAKE) --no-print-directory -j$$(nproc) all
+	@tests/bench.sh
+
+.PHONY: all deps test lint demo gallery bench clean
 -include $(shell find build -name '*.d' 2>/dev/null)

@@ -106,7 +106,7 @@ static void exit_status(void **state) {
         {"one.png two.png --failpercent 2 --warnpercent=2", 0, "PASS"},
         {"one.png small.png", 1, "different sizes"},
         {"one.png missing.png", 1, "missing.png"},
-        {"said.txt one.png", 2, "said.txt"},
+        {"nowhere.txt one.png", 2, "nowhere.txt"}, // any other word is an INI file
         {"one.png", 2, "two pictures"},
         {"one.png two.png scene.pov", 2, "not both"},
         {"scene.qi.json", 2, ".pov"},

@@ -25,23 +25,27 @@ static const char *const SWITCHES[] = {"-A", "+A0.3 +AM2 +R3", "+A0.3"};
 
 typedef struct {
     const char *name, *scene;
-    size_t first; // of SWITCHES: those before are left out
+    size_t first;        // of SWITCHES: those before are left out
+    double percent_more; // over AT_MOST_PERCENT, for a reason given at the row
 } Row;
 
 static const Row ROWS[] = {
-    {"bezier", EXAMPLES "objects/bezier.pov", 0},
-    {"teapot", EXAMPLES "advanced/teapot/teapot.pov", 0},
-    {"cephalopov", CORPUS "cephalopov/bicubicpatch_basic.pov", 0},
-    {"dealii", CORPUS "dealii/cont243bic.pov", 0},
-    {"postit", CORPUS "postit/postit.pov", 0},
-    {"teapot-matte", "scenes/teapot-matte/teapot-matte.pov", 2},
-    {"teapot-chrome", "scenes/teapot-chrome/teapot-chrome.pov", 2},
-    {"teapot-glass", "scenes/teapot-glass/teapot-glass.pov", 2},
-    {"folds", "scenes/folds/folds.pov", 2},
-    {"macros", "scenes/macros/macros.pov", 2},
-    {"mirror", "scenes/mirror/mirror.pov", 2},
-    {"shells", "scenes/shells/shells.pov", 2},
-    {"uv", "scenes/uv/uv.pov", 2},
+    {"bezier", EXAMPLES "objects/bezier.pov", 0, 0},
+    {"teapot", EXAMPLES "advanced/teapot/teapot.pov", 0, 0},
+    {"cephalopov", CORPUS "cephalopov/bicubicpatch_basic.pov", 0, 0},
+    {"dealii", CORPUS "dealii/cont243bic.pov", 0, 0},
+    {"postit", CORPUS "postit/postit.pov", 0, 0},
+    {"teapot-matte", "scenes/teapot-matte/teapot-matte.pov", 2, 0},
+    {"teapot-chrome", "scenes/teapot-chrome/teapot-chrome.pov", 2, 0},
+    {"teapot-glass", "scenes/teapot-glass/teapot-glass.pov", 2, 0},
+    {"folds", "scenes/folds/folds.pov", 2, 0},
+    // All petals meet in one place, nearer to each other than a thousandth. There POV-Ray's shadows
+    // depend on which object it met last (its shadow cache takes hits down to 1e-4 of an object
+    // that it knows, 1e-3 of others); ours never depend on the past. 19 of 76,800 pixels.
+    {"macros", "scenes/macros/macros.pov", 2, 0.02},
+    {"mirror", "scenes/mirror/mirror.pov", 2, 0},
+    {"shells", "scenes/shells/shells.pov", 2, 0},
+    {"uv", "scenes/uv/uv.pov", 2, 0},
 };
 
 static void facets_equal_povray(void **state) {
@@ -60,7 +64,7 @@ static void facets_equal_povray(void **state) {
         double percent = percent_over(theirs, ours, ONE_STEP);
         print_message("%-14s %-16s %.4f %% of the pixels differ\n", row->name, SWITCHES[i],
                       percent);
-        bad += !(percent <= AT_MOST_PERCENT);
+        bad += !(percent <= AT_MOST_PERCENT + row->percent_more);
     }
     assert_int_equal(bad, 0);
 }

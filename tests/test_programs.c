@@ -162,6 +162,25 @@ static void refuses_unwritable_places(void **state) {
     assert_non_null(strstr(log, "out.ppm"));
 }
 
+// The name decides the format, though the machine's povray.ini says PNG. Before: out.exr.png.
+static void name_decides_the_format(void **state) {
+    (void)state;
+    static const char *const NAMES[] = {"exr", "tif", "jpg", "ppm", "tga", "bmp", "hdr", "png"};
+    write_text("good.pov", CAMERA "sphere { 0, 1 pigment { rgb 1 } }\n",
+               strlen(CAMERA "sphere { 0, 1 pigment { rgb 1 } }\n"));
+    char cwd[2048];
+    assert_non_null(getcwd(cwd, sizeof cwd));
+    for (size_t i = 0; i < sizeof NAMES / sizeof *NAMES; i++) {
+        const char *log;
+        int status = run_command(&log,
+                                 "cd '%s' && '%s/build/qirender' +Igood.pov +W16 +H12 -V "
+                                 "+Oformat.%s && oiiotool --info format.%s",
+                                 scratch_folder(), cwd, NAMES[i], NAMES[i]);
+        if (status != 0 || !strstr(log, "16 x   12"))
+            fail_msg("%s: status %d\n%s", NAMES[i], status, log);
+    }
+}
+
 // pov2qi x.pov && qirender x.qi.json is the same picture, byte for byte, as qirender x.pov.
 static void scene_file_gives_same_bytes(void **state) {
     (void)state;
@@ -195,7 +214,7 @@ static void scene_file_gives_same_bytes(void **state) {
 
 int main(void) {
     enum { COUNT = sizeof BAD / sizeof *BAD };
-    struct CMUnitTest tests[COUNT + 4];
+    struct CMUnitTest tests[COUNT + 5];
     for (int i = 0; i < COUNT; i++)
         tests[i] = (struct CMUnitTest){BAD[i].name, refuses_bad_input, NULL, NULL,
                                        (void *)(uintptr_t)&BAD[i]};
@@ -203,5 +222,6 @@ int main(void) {
     tests[COUNT + 1] = (struct CMUnitTest)cmocka_unit_test(refuses_deep_nesting);
     tests[COUNT + 2] = (struct CMUnitTest)cmocka_unit_test(refuses_unwritable_places);
     tests[COUNT + 3] = (struct CMUnitTest)cmocka_unit_test(scene_file_gives_same_bytes);
+    tests[COUNT + 4] = (struct CMUnitTest)cmocka_unit_test(name_decides_the_format);
     return cmocka_run_group_tests_name("programs", tests, NULL, NULL);
 }

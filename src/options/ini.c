@@ -318,6 +318,8 @@ void options_read_povray_ini(OptionsProgram program, Arena *arena, RenderOptions
             options->width = 160;
             options->height = 120;
             read_file(&parse, places[i], NULL);
+            // The machine's habit is not the user's word: +Ox.exr still means an EXR file.
+            options->format_given = false;
             return;
         }
 }

@@ -171,7 +171,7 @@ static bool apply_float(Parse *parse, const OptionRow *row, bool on, const char 
     double number;
     if (!option_number(value, &number))
         return complain(parse, "a number must follow");
-    *(double *)((char *)parse->options + row->offset) = (double)(float)number;
+    *(double *)(void *)((char *)parse->options + row->offset) = (double)(float)number;
     return true;
 }
 

@@ -125,7 +125,7 @@ static void apply_flags(Object *object, const Inherited *own) {
 
 static uint32_t emit_light(Emitter *e, const ObjectNode *node, const Inherited *from) {
     emit_gaps(e, node->light->gaps);
-    array_push(&e->lights, node->light->light);
+    array_push(&e->lights, light_finished(node->light));
     if (!node->light->looks_like)
         return NO_INDEX;
     return emit_object(e, node->light->looks_like, from);
@@ -218,7 +218,7 @@ static void emit_lights(Emitter *e, const ObjectNode *node) {
         emit_lights(e, child);
     if (node->light) {
         emit_gaps(e, node->light->gaps);
-        array_push(&e->lights, node->light->light);
+        array_push(&e->lights, light_finished(node->light));
     }
 }
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// light_source (facts: sdl 4.9, rendering 5). Point and parallel lights are complete; what other
-// kinds would add is noted.
+// light_source (facts: sdl 4.9, rendering 5). What is not modelled is noted.
 #include "converter/nodes.h"
 
 void parse_light_data(Converter *cv, ObjectNode *object) {
@@ -8,7 +7,7 @@ void parse_light_data(Converter *cv, ObjectNode *object) {
     object->light = node;
     object->modelled = true;
     object->loc = NULL;
-    node->light.point_at = vec3(0, 0, 1);
+    node->light = light_default(LIGHT_POINT);
     node->light.location = parse_vector(cv);
     optional_comma(cv);
     if (starts_color(cv) || starts_expression(cv))
@@ -17,15 +16,20 @@ void parse_light_data(Converter *cv, ObjectNode *object) {
 
 void light_move(LightNode *node, const Move *move) {
     Light *light = &node->light;
+    Vec3 *axis = light->area.axis;
     if (move->kind == MOVE_TRANSLATE) {
         light->location = vec_add(light->location, move->v);
         light->point_at = vec_add(light->point_at, move->v);
     } else if (move->kind == MOVE_SCALE) {
         light->location = vec_mul(light->location, move->v);
         light->point_at = vec_mul(light->point_at, move->v);
+        axis[0] = vec_mul(axis[0], move->v);
+        axis[1] = vec_mul(axis[1], move->v);
     } else {
         light->location = transform_point(&move->t, light->location);
         light->point_at = transform_point(&move->t, light->point_at);
+        axis[0] = transform_dir(&move->t, axis[0]);
+        axis[1] = transform_dir(&move->t, axis[1]);
     }
 }
 
@@ -57,25 +61,57 @@ static void need_direction(Converter *cv, const LightNode *node, const Token *to
            token->code == KW_point_at ? ", cylinder or parallel" : " or cylinder");
 }
 
+static void set_kind(LightNode *node, LightType type) {
+    Light plain = light_default(type);
+    node->directed = true;
+    node->light.type = type;
+    node->light.radius = plain.radius;
+    node->light.falloff = plain.falloff;
+    node->light.tightness = plain.tightness;
+}
+
+static void parse_area_light(Converter *cv, LightNode *node, const Token *token) {
+    AreaLight *area = &node->light.area;
+    node->light.has_area = true;
+    for (int i = 0; i < 2; i++) {
+        area->axis[i] = parse_vector(cv);
+        optional_comma(cv);
+    }
+    for (int i = 0; i < 2; i++) {
+        double size = parse_float(cv);
+        Loc loc = token_loc(cv, token);
+        if (!(size >= 1 && size <= LIGHT_MAX_GRID))
+            die_at(&loc, "an area_light has 1 to %d points a side, not %g", LIGHT_MAX_GRID, size);
+        area->size[i] = (int)size;
+        if (i == 0)
+            optional_comma(cv);
+    }
+}
+
+Light light_finished(const LightNode *node) {
+    Light light = node->light;
+    if (node->parallel && light.type == LIGHT_POINT)
+        light.type = LIGHT_PARALLEL;
+    light.parallel = node->parallel && light.type == LIGHT_SPOT;
+    if (!light.has_area)
+        light.area = area_light_default();
+    light.area.circular |= light.area.orient;
+    return light;
+}
+
 static bool parse_kind(Converter *cv, LightNode *node, const Token *token) {
     switch (token->code) {
     case KW_spotlight:
         next_token(cv);
-        note_gap(cv, &node->gaps, token,
-                 "spotlight is not modelled: the light shines in all directions");
-        node->directed = true;
+        set_kind(node, LIGHT_SPOT);
         return true;
     case KW_cylinder:
         next_token(cv);
-        note_gap(cv, &node->gaps, token,
-                 "a cylindrical light is not modelled: it shines as a parallel light of any width");
-        node->directed = true;
-        node->light.type = LIGHT_PARALLEL;
+        set_kind(node, LIGHT_CYLINDER);
         return true;
     case KW_parallel:
         next_token(cv);
-        node->directed = true;
-        node->light.type = LIGHT_PARALLEL;
+        node->directed = node->parallel = true;
         return true;
     case KW_shadowless:
         next_token(cv);
@@ -83,14 +119,7 @@ static bool parse_kind(Converter *cv, LightNode *node, const Token *token) {
         return true;
     case KW_area_light:
         next_token(cv);
-        parse_vector(cv);
-        optional_comma(cv);
-        parse_vector(cv);
-        optional_comma(cv);
-        parse_float(cv);
-        optional_comma(cv);
-        parse_float(cv);
-        note_gap(cv, &node->gaps, token, "area_light is not modelled: its shadows have hard edges");
+        parse_area_light(cv, node, token);
         return true;
     default:
         return false;
@@ -105,11 +134,19 @@ static bool parse_number(Converter *cv, LightNode *node, const Token *token) {
         node->light.point_at = parse_vector(cv);
         return true;
     case KW_radius:
+        need_direction(cv, node, token);
+        next_token(cv);
+        node->light.radius = parse_float(cv);
+        return true;
     case KW_falloff:
+        need_direction(cv, node, token);
+        next_token(cv);
+        node->light.falloff = parse_float(cv);
+        return true;
     case KW_tightness:
         need_direction(cv, node, token);
         next_token(cv);
-        parse_float(cv);
+        node->light.tightness = parse_float(cv);
         return true;
     case KW_fade_distance:
         next_token(cv);
@@ -121,7 +158,7 @@ static bool parse_number(Converter *cv, LightNode *node, const Token *token) {
         return true;
     case KW_adaptive:
         next_token(cv);
-        parse_float(cv);
+        node->light.area.adaptive = (int)parse_float(cv);
         return true;
     default:
         return false;
@@ -131,11 +168,21 @@ static bool parse_number(Converter *cv, LightNode *node, const Token *token) {
 static bool parse_rest(Converter *cv, LightNode *node, const Token *token) {
     switch (token->code) {
     case KW_jitter:
+        next_token(cv);
+        node->light.area.jitter = true;
+        return true;
     case KW_circular:
+        next_token(cv);
+        node->light.area.circular = true;
+        return true;
     case KW_orient:
         next_token(cv);
+        node->light.area.orient = true;
         return true;
     case KW_area_illumination:
+        next_token(cv);
+        node->light.area.illumination = parse_optional_bool(cv);
+        return true;
     case KW_media_interaction:
     case KW_media_attenuation:
         next_token(cv);

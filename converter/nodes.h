@@ -181,6 +181,7 @@ typedef struct ObjectNode ObjectNode;
 typedef struct {
     Light light;
     bool directed; // spotlight, cylinder or parallel was written: point_at may follow
+    bool parallel; // `parallel` was written
     ObjectNode *looks_like;
     const Gap *gaps;
 } LightNode;
@@ -217,6 +218,8 @@ bool parse_number_setting(Converter *cv, const Token *token);
 void parse_light_data(Converter *cv, ObjectNode *object);
 void parse_light_items(Converter *cv, ObjectNode *object);
 void light_move(LightNode *light, const Move *move);
+// What the light is when all of it has been read.
+Light light_finished(const LightNode *node);
 
 // ---- objects: object.c, shapes.c, patch.c, shapes_other.c, csg.c, modifiers.c, extent.c
 // -----------

@@ -99,7 +99,16 @@ static Transform random_transform(Rng *rng) {
     X(LightType, type)                                                                             \
     X(Vec3, location)                                                                              \
     X(Vec3, point_at)                                                                              \
-    X(Rgb, color) X(bool, shadowless) X(double, fade_distance) X(double, fade_power)
+    X(Rgb, color)                                                                                  \
+    X(bool, shadowless)                                                                            \
+    X(bool, parallel)                                                                              \
+    X(double, radius)                                                                              \
+    X(double, falloff)                                                                             \
+    X(double, tightness) X(double, fade_distance) X(double, fade_power) X(bool, has_area)
+#define AREA_LIGHT_MEMBERS(X)                                                                      \
+    X(Vec3[2], axis)                                                                               \
+    X(int[2], size)                                                                                \
+    X(int, adaptive) X(bool, circular) X(bool, orient) X(bool, jitter) X(bool, illumination)
 #define TURBULENCE_MEMBERS(X, at)                                                                  \
     X(Vec3, at.amount) X(int, at.octaves) X(float, at.lambda) X(float, at.omega)
 #define PATTERN_MEMBERS(X)                                                                         \
@@ -202,16 +211,36 @@ static Camera make_camera(Rng *rng) {
     };
 }
 
-static Light make_light(Rng *rng) {
-    return (Light){
-        .type = (LightType)random_below(rng, 2),
-        .location = random_vec3(rng),
-        .point_at = vec3(rng_range(rng, 20, 30), random_double(rng), 3), // never the location
-        .color = random_rgb(rng),
-        .shadowless = random_bool(rng),
-        .fade_distance = random_float(rng),
-        .fade_power = random_float(rng),
+static AreaLight make_area_light(Rng *rng) {
+    return (AreaLight){
+        .axis = {random_vec3(rng), random_vec3(rng)},
+        .size = {1 + (int)random_below(rng, 20), 1 + (int)random_below(rng, 20)},
+        .adaptive = (int)random_below(rng, 3) * 50,
+        .circular = random_bool(rng),
+        .orient = random_bool(rng),
+        .jitter = random_bool(rng),
+        .illumination = random_bool(rng),
     };
+}
+
+static Light make_light(Rng *rng) {
+    Light light = light_default((LightType)random_below(rng, LIGHT_CYLINDER + 1));
+    light.location = random_vec3(rng);
+    light.point_at = vec3(rng_range(rng, 20, 30), random_double(rng), 3); // never the location
+    light.color = random_rgb(rng);
+    light.shadowless = random_bool(rng);
+    light.fade_distance = random_float(rng);
+    light.fade_power = random_float(rng);
+    if (light.type >= LIGHT_SPOT && random_bool(rng)) {
+        light.radius = random_double(rng);
+        light.falloff = random_double(rng);
+        light.tightness = random_double(rng);
+    }
+    light.parallel = light.type == LIGHT_SPOT && random_bool(rng);
+    light.has_area = random_bool(rng);
+    if (light.has_area)
+        light.area = make_area_light(rng);
+    return light;
 }
 
 static Turbulence make_turbulence(Rng *rng) {
@@ -527,9 +556,14 @@ static const char *camera_difference(const Camera *a, const Camera *b) {
     return NULL;
 }
 
+static const char *area_light_difference(const AreaLight *a, const AreaLight *b) {
+    AREA_LIGHT_MEMBERS(COMPARE)
+    return NULL;
+}
+
 static const char *light_difference(const Light *a, const Light *b) {
     LIGHT_MEMBERS(COMPARE)
-    return NULL;
+    return a->has_area ? area_light_difference(&a->area, &b->area) : NULL;
 }
 
 static const char *warp_difference(const Warp *a, const Warp *b) {

@@ -9,6 +9,8 @@
 #include "shade_fixture.h"
 
 #include "base/diag.h"
+#include "convert_help.h"
+#include "render/camera.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -55,6 +57,19 @@ Fixture *fixture_create(int version) {
         .background = {0.0f, 0.0f, 0.0f, 0.0f, 1.0f},
     };
     fixture_text(f, "#version %g;\nglobal_settings { assumed_gamma 1.0 }\n", version / 100.0);
+    return f;
+}
+
+Fixture *fixture_read(int width, int height, const char *text) {
+    Fixture *f = fixture_create(370);
+    fixture_text(f, "%s", text);
+    Converted converted = convert_text(text);
+    if (converted.scene == NULL)
+        die("%s", converted.message);
+    if (converted.warnings != 0)
+        die("a warning: %s", first_warning(text));
+    f->converted = converted.scene;
+    f->width = width, f->height = height;
     return f;
 }
 
@@ -150,6 +165,8 @@ Object fixture_plane(Vec3 normal, double distance) {
 
 const Scene *fixture_scene(Fixture *f) {
     Scene *s = &f->scene;
+    if (f->converted != NULL)
+        return f->converted;
     s->pigments = f->pigments.items, s->pigment_count = (uint32_t)f->pigments.count;
     s->textures = f->textures.items, s->texture_count = (uint32_t)f->textures.count;
     s->interiors = f->interiors.items, s->interior_count = (uint32_t)f->interiors.count;
@@ -160,7 +177,7 @@ const Scene *fixture_scene(Fixture *f) {
 }
 
 // Facts: rendering 1.3.
-static Ray camera_ray(const Fixture *f, int x, int y) {
+static Ray look_through(const Fixture *f, int x, int y) {
     const Camera *c = &f->scene.camera;
     double a = (x + 0.5) / f->width - 0.5, b = ((f->height - 1) - (y - 0.5)) / f->height - 0.5;
     Vec3 offset = vec_add(vec_scale(c->right, a), vec_scale(c->up, b));
@@ -179,13 +196,19 @@ static Color *our_picture(Fixture *f) {
     Color *pixels = ARENA_ARRAY(f->arena, Color, (size_t)f->width * (size_t)f->height);
     for (int y = 0; y < f->height; y++)
         for (int x = 0; x < f->width; x++) {
-            Ray ray = camera_ray(f, x, y);
+            Ray ray = f->converted ? camera_ray(&scene->camera, f->width, f->height, x, y)
+                                   : look_through(f, x, y);
             pixels[y * f->width + x] = tracer_trace(tracer, &ray);
         }
     tracer_destroy(tracer);
     shading_destroy(shading);
     world_destroy(world);
     return pixels;
+}
+
+const Color *fixture_picture(Fixture *f, int quality) {
+    f->quality = quality;
+    return our_picture(f);
 }
 
 static unsigned char *read_all(Fixture *f, const char *path, size_t *size) {

@@ -15,6 +15,7 @@ typedef struct {
     char *text; // POV-Ray's, a heap buffer
     size_t text_size, text_room;
     Scene scene;
+    const Scene *converted; // stands for all of the above when there is one
     ARRAY(Pigment) pigments;
     ARRAY(Texture) textures;
     ARRAY(Interior) interiors;
@@ -32,6 +33,9 @@ bool fixture_povray_available(void);
 
 // An empty scene of that language version (x 100), assumed_gamma 1, defaults of the language.
 Fixture *fixture_create(int version);
+// The scene of that text, read by the converter, which must have nothing to warn of; version 3.7,
+// assumed_gamma 1. Our camera is the renderer's own.
+Fixture *fixture_read(int width, int height, const char *text);
 void fixture_destroy(Fixture *fixture);
 void fixture_text(Fixture *fixture, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
@@ -57,6 +61,8 @@ Object fixture_plane(Vec3 normal, double distance);
 // Our scene as it stands now; valid until the next call of fixture_*().
 const Scene *fixture_scene(Fixture *fixture);
 
+// Our picture of it, row by row from the top; valid as long as the fixture.
+const Color *fixture_picture(Fixture *fixture, int quality);
 // Starts POV-Ray on the finished scene; several may be under way. alpha: with +UA.
 void fixture_launch(Fixture *fixture, int quality, bool alpha);
 // Renders a launched scene and waits for POV-Ray. The largest difference of a channel in units of

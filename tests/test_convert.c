@@ -320,7 +320,9 @@ static void lights_leave_their_unions(void **state) {
     assert_dies("light_source { 0, 1 point_at y }", "'point_at' needs spotlight");
     s = scene_of("difference { light_source { 0, 1 } sphere { 0, 1 } translate x }");
     assert_vec(s->lights[0].location, 1, 0, 0);
-    assert_warns("light_source { 0, 1 spotlight radius 10 } sphere { 0, 1 }", "spotlight is not");
+    assert_warns("light_source { 0, 1 projected_through { sphere { x, 1 } } } sphere { 0, 1 }",
+                 "projected_through is not");
+    assert_dies("light_source { 0, 1 area_light x, y, 0, 3 }", "1 to 2048 points");
 }
 
 // ---- what is not modelled

@@ -236,7 +236,14 @@ static void lights_of_other_kinds(void **state) {
         "light_source { 0, 1 projected_through { disc { 0, z, 1 } } } "
         "light_group { light_source { y, 1 } sphere { 0, 1 } global_lights on translate x }");
     assert_int_equal(s->light_count, 5);
-    assert_int_equal(s->lights[1].type, LIGHT_PARALLEL);
+    assert_int_equal(s->lights[0].type, LIGHT_SPOT);
+    assert_near(s->lights[0].falloff, 20);
+    assert_near(s->lights[0].tightness, 3);
+    assert_int_equal(s->lights[1].type, LIGHT_CYLINDER);
+    assert_near(s->lights[1].radius, 1);
+    assert_true(s->lights[2].has_area && s->lights[2].area.jitter && s->lights[2].area.orient);
+    assert_true(s->lights[2].area.illumination);
+    assert_int_equal(s->lights[2].area.adaptive, 1);
     assert_vec(s->lights[4].location, 1, 1, 0);
     assert_warns("light_group { light_source { y, 1 } sphere { 0, 1 } }", "light_group is not");
 }

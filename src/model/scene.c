@@ -45,6 +45,17 @@ Finish finish_default(void) {
     };
 }
 
+AreaLight area_light_default(void) { return (AreaLight){.size = {1, 1}, .adaptive = 100}; }
+
+Light light_default(LightType type) {
+    Light light = {.type = type, .point_at = {0, 0, 1}, .area = area_light_default()};
+    if (type == LIGHT_SPOT)
+        light.radius = 30, light.falloff = 45;
+    else if (type == LIGHT_CYLINDER)
+        light.radius = 0.75, light.falloff = 1;
+    return light;
+}
+
 Interior interior_default(void) { return (Interior){.ior = 1.0f}; }
 
 Turbulence turbulence_default(void) {
@@ -122,6 +133,7 @@ Object object_default(ObjectType type) {
 // ORDER feature: sorted by byte, so that features in order give a sorted list.
 #define FEATURES(X)                                                                                \
     X(agate)                                                                                       \
+    X(area_light)                                                                                  \
     X(average)                                                                                     \
     X(bezier_patch)                                                                                \
     X(bicubic_patch)                                                                               \
@@ -139,6 +151,7 @@ Object object_default(ObjectType type) {
     X(crand)                                                                                       \
     X(cubic)                                                                                       \
     X(cylinder)                                                                                    \
+    X(cylinder_light)                                                                              \
     X(cylindrical)                                                                                 \
     X(dents)                                                                                       \
     X(diffuse_back)                                                                                \
@@ -185,6 +198,7 @@ Object object_default(ObjectType type) {
     X(spherical)                                                                                   \
     X(spiral1)                                                                                     \
     X(spiral2)                                                                                     \
+    X(spotlight)                                                                                   \
     X(square)                                                                                      \
     X(torus)                                                                                       \
     X(transparency)                                                                                \
@@ -247,6 +261,9 @@ static void collect_lights(const Scene *scene, FeatureSet *set) {
         const Light *light = &scene->lights[i];
         need(set, FEATURE_point_light, light->type == LIGHT_POINT);
         need(set, FEATURE_parallel_light, light->type == LIGHT_PARALLEL);
+        need(set, FEATURE_spotlight, light->type == LIGHT_SPOT);
+        need(set, FEATURE_cylinder_light, light->type == LIGHT_CYLINDER);
+        need(set, FEATURE_area_light, light->has_area);
         need(set, FEATURE_shadowless_light, light->shadowless);
         need(set, FEATURE_light_fade, light->fade_distance != 0 && light->fade_power > 0);
     }

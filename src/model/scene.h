@@ -54,16 +54,36 @@ typedef struct {
 // ---- lights ---------------------------------------------------------------------------------
 
 // ORDER light_type
-typedef enum { LIGHT_POINT, LIGHT_PARALLEL } LightType;
+typedef enum { LIGHT_POINT, LIGHT_PARALLEL, LIGHT_SPOT, LIGHT_CYLINDER } LightType;
+
+enum { LIGHT_MAX_GRID = 2048 };
+
+// The grid of points from which the shadows of a light fall: size[0] x size[1] of them, between
+// the sides axis[0] and axis[1] about its location.
+typedef struct {
+    Vec3 axis[2];
+    int size[2];  // 1 to LIGHT_MAX_GRID: the shading keeps a colour for each point
+    int adaptive; // levels of the grid that are always divided; default 100, which is all
+    bool circular;
+    bool orient; // faces each point it lights; only with circular
+    bool jitter;
+    bool illumination; // not only the shadows come from the grid but all of the light
+} AreaLight;
 
 typedef struct {
     LightType type;
     Vec3 location;
-    Vec3 point_at; // parallel: the light travels along point_at - location everywhere
+    Vec3 point_at; // parallel, cylinder: the light travels along point_at - location everywhere
     Rgb color;
-    bool shadowless; // no shadow test, diffuse only
+    bool shadowless;  // no shadow test, diffuse only
+    double radius;    // spot: half the angle in degrees (default 30); cylinder: a length (0.75)
+    double falloff;   // the same, where the light ends; default 45 and 1
+    bool parallel;    // spot: its rays run along its axis, so that it shines before its plane
+    double tightness; // spot, cylinder: exponent; default 0
     double fade_distance;
     double fade_power;
+    bool has_area;
+    AreaLight area;
 } Light;
 
 // ---- textures -------------------------------------------------------------------------------
@@ -365,6 +385,8 @@ Settings settings_default(void);
 Camera camera_default(void);
 Finish finish_default(void);
 Interior interior_default(void);
+Light light_default(LightType type);
+AreaLight area_light_default(void);
 // Are both the same, member by member and bit by bit? They may be of different scenes with the same
 // pools: pigments in maps are compared by index.
 bool pigment_equal(const Pigment *a, const Pigment *b);

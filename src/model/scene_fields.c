@@ -79,7 +79,29 @@ static void default_camera(void *out) { *(Camera *)out = camera_default(); }
 static const Record CAMERA = {NULL, CAMERA_FIELDS, sizeof(Camera), default_camera, NULL};
 
 // ORDER light_type
-static const char *const LIGHT_TYPE_NAMES[] = {"point", "parallel", NULL};
+static const char *const LIGHT_TYPE_NAMES[] = {"point", "parallel", "spot", "cylinder", NULL};
+
+static const Field AREA_LIGHT_FIELDS[] = {
+    VEC3_AS(FIELD_REQUIRED, AreaLight, axis[0], "axis1"),
+    VEC3_AS(FIELD_REQUIRED, AreaLight, axis[1], "axis2"),
+    INT(AreaLight, size[0], "size1"),
+    INT(AreaLight, size[1], "size2"),
+    INT(AreaLight, adaptive, "adaptive"),
+    BOOL(AreaLight, circular, "circular"),
+    BOOL(AreaLight, orient, "orient"),
+    BOOL(AreaLight, jitter, "jitter"),
+    BOOL(AreaLight, illumination, "area_illumination"),
+    END,
+};
+static void default_area_light(void *out) { *(AreaLight *)out = area_light_default(); }
+static const Record AREA_LIGHT = {NULL, AREA_LIGHT_FIELDS, sizeof(AreaLight), default_area_light,
+                                  NULL};
+
+#define LIGHT_DOUBLE(member)                                                                       \
+    {                                                                                              \
+        .name = #member, .type = FIELD_DOUBLE, AT(Light, member),                                  \
+        .kinds = 1u << LIGHT_SPOT | 1u << LIGHT_CYLINDER                                           \
+    }
 
 static const Field LIGHT_FIELDS[] = {
     {.name = "type",
@@ -95,12 +117,23 @@ static const Field LIGHT_FIELDS[] = {
      AT(Light, color),
      .columns = 3},
     BOOL(Light, shadowless, "shadowless"),
+    LIGHT_DOUBLE(radius),
+    LIGHT_DOUBLE(falloff),
+    LIGHT_DOUBLE(tightness),
+    {.name = "parallel", .type = FIELD_BOOL, AT(Light, parallel), .kinds = 1u << LIGHT_SPOT},
     DOUBLE(Light, fade_distance, "fade_distance"),
     DOUBLE(Light, fade_power, "fade_power"),
+    {.name = "area",
+     .type = FIELD_RECORD,
+     .presence = FIELD_FLAGGED,
+     AT(Light, area),
+     .link = offsetof(Light, has_area),
+     .record = &AREA_LIGHT},
     END,
 };
-static void default_light(void *out) { *(Light *)out = (Light){.point_at = {0, 0, 1}}; }
-static const Record LIGHT = {NULL, LIGHT_FIELDS, sizeof(Light), default_light, NULL};
+static void default_light(void *out) { *(Light *)out = light_default(LIGHT_POINT); }
+static void default_light_kind(void *out) { *(Light *)out = light_default(((Light *)out)->type); }
+static const Record LIGHT = {NULL, LIGHT_FIELDS, sizeof(Light), default_light, default_light_kind};
 
 // ---- textures -------------------------------------------------------------------------------
 

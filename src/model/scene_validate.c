@@ -165,14 +165,28 @@ static void check_camera(const Check *c) {
     }
 }
 
+static void check_area_light(const Check *c, const FieldPath *path, const AreaLight *area) {
+    check_vec3(c, path, "axis1", area->axis[0]);
+    check_vec3(c, path, "axis2", area->axis[1]);
+    check_range(c, path, "size1", area->size[0], 1, LIGHT_MAX_GRID);
+    check_range(c, path, "size2", area->size[1], 1, LIGHT_MAX_GRID);
+}
+
 static void check_light(const Check *c, const FieldPath *path, const Light *light) {
-    check_range(c, path, "type", (int)light->type, LIGHT_POINT, LIGHT_PARALLEL);
+    check_range(c, path, "type", (int)light->type, LIGHT_POINT, LIGHT_CYLINDER);
     check_vec3(c, path, "location", light->location);
     check_vec3(c, path, "point_at", light->point_at);
     check_rgb(c, path, "color", light->color);
     check_numbers(c, path, "fade_distance", &light->fade_distance, 1);
     check_numbers(c, path, "fade_power", &light->fade_power, 1);
-    if (light->type == LIGHT_PARALLEL &&
+    check_numbers(c, path, "radius", &light->radius, 1);
+    check_numbers(c, path, "falloff", &light->falloff, 1);
+    check_numbers(c, path, "tightness", &light->tightness, 1);
+    if (light->has_area) {
+        const FieldPath area = path_field(path, "area");
+        check_area_light(c, &area, &light->area);
+    }
+    if (light->type != LIGHT_POINT &&
         !(vec_length(vec_sub(light->point_at, light->location)) > 0)) {
         const FieldPath point_at = path_field(path, "point_at");
         refuse(c, &point_at, "it is the light's location");

@@ -121,6 +121,7 @@ static void write_record(Writer *w, const Record *record, const void *at) {
         Camera camera;
         SkySphere sky_sphere;
         Warp warp;
+        AreaLight area_light;
         Light light;
         MapEntry entry;
         Layer layer;

@@ -10,72 +10,138 @@ void lights_reset(Tracer *tracer) {
         tracer->lights[i].ready = tracer->lights[i].shadow_done = false;
 }
 
-static double attenuation(const Light *light, double distance) {
+// 0 at low and below, 1 at high and above.
+static double smooth_step(double low, double high, double x) {
+    if (x < low)
+        return 0.0;
+    if (x >= high)
+        return 1.0;
+    double p = (x - low) / (high - low);
+    return (3.0 - 2.0 * p) * p * p;
+}
+
+// In the cosine of the angle to the axis. A distance below 0: the point lies behind a parallel one.
+static double spot_attenuation(const Light *light, const LightAxis *axis, Vec3 dir,
+                               double distance) {
+    double cosine = vec_dot(dir, axis->travel) * (distance > 0.0 ? -1.0 : 1.0);
+    if (!(cosine > 0.0))
+        return 0.0;
+    double a = pow(cosine, light->tightness);
+    if (axis->radius > 0.0 && cosine < axis->radius)
+        a *= smooth_step(axis->falloff, axis->radius, cosine);
+    return a;
+}
+
+// p: the lit point as seen from the light.
+static double cylinder_attenuation(const Light *light, const LightAxis *axis, Vec3 p) {
+    double along = vec_dot(p, axis->travel);
+    if (!(along > 0.0))
+        return 0.0;
+    double away = sqrt(fmax(0.0, vec_dot(p, p) - along * along));
+    if (away >= axis->falloff)
+        return 0.0;
+    double x = 1.0 - away / axis->falloff;
+    double a = pow(x, light->tightness);
+    if (axis->radius > 0.0 && away > axis->radius)
+        a *= smooth_step(0.0, 1.0 - axis->radius / axis->falloff, x);
+    return a;
+}
+
+static double fading(const Light *light, double distance) {
     if (!(light->fade_power > 0.0) || !(fabs(light->fade_distance) > SHADE_EPS))
         return 1.0;
     return 2.0 / (1.0 + pow(distance / light->fade_distance, light->fade_power));
 }
 
-static LightSample sample(const Shading *shading, uint32_t index, Vec3 p) {
+LightSample light_sample(const Shading *shading, uint32_t index, Vec3 p, Vec3 offset) {
     const Light *light = &shading->scene->lights[index];
+    const LightAxis *axis = &shading->axes[index];
     LightSample s = {.ready = true};
-    s.dir = vec_sub(light->location, p);
-    s.distance = vec_length(s.dir);
+    Vec3 center = vec_add(light->location, offset), towards = vec_sub(center, p);
+    s.distance = vec_length(towards);
     if (!(s.distance > 0.0))
         return s; // the surface goes through the light: there is no direction, so no light
-    s.dir = vec_scale(s.dir, 1.0 / s.distance);
-    if (light->type == LIGHT_PARALLEL) {
-        Vec3 travel = shading->parallel_travel[index];
-        s.distance *= -vec_dot(travel, s.dir);
-        s.dir = vec_neg(travel);
+    s.dir = vec_scale(towards, 1.0 / s.distance);
+    if (light->type == LIGHT_PARALLEL || light->type == LIGHT_CYLINDER || light->parallel) {
+        // Each point of an area shines towards point_at.
+        Vec3 back = light->has_area ? vec_normalize(vec_sub(center, light->point_at))
+                                    : vec_neg(axis->travel);
+        s.distance *= vec_dot(back, s.dir);
+        s.dir = back;
     }
-    s.color = rgb_scale(light->color, attenuation(light, s.distance));
+    s.attenuation = fading(light, s.distance);
+    if (light->type == LIGHT_SPOT)
+        s.attenuation *= spot_attenuation(light, axis, s.dir, s.distance);
+    else if (light->type == LIGHT_CYLINDER)
+        s.attenuation *= cylinder_attenuation(light, axis, vec_sub(p, light->location));
+    s.color = rgb_scale(light->color, s.attenuation);
     return s;
 }
 
-static bool is_black(Rgb c) {
+bool light_is_black(Rgb c) {
     return fabsf(c.r) < SHADE_EPS && fabsf(c.g) < SHADE_EPS && fabsf(c.b) < SHADE_EPS;
 }
 
-static void add_light(Tracer *tracer, const LitLayer *layer, uint32_t index, Rgb *color) {
-    const Shading *shading = tracer->shading;
+// A light behind the surface reaches only its back, or both sides of a double_illuminate.
+bool light_behind(const LitLayer *layer, Vec3 dir, bool *dark) {
+    bool behind = !layer->surface->double_illuminate && vec_dot(layer->normal, dir) < SHADE_EPS;
+    *dark = behind && layer->finish->diffuse_back == 0.0f;
+    return behind;
+}
+
+void light_shine(Tracer *tracer, const LitLayer *layer, bool shadowless, const LightSample *s,
+                 bool backside, Rgb *color) {
     const Surface *surface = layer->surface;
-    const Light *light = &shading->scene->lights[index];
-    LightSample *s = &tracer->lights[index];
-    if (!s->ready)
-        *s = sample(shading, index, surface->hit->p);
-    if (is_black(s->color))
-        return;
-
-    // A light behind the surface reaches only its back, or both sides of a double_illuminate.
-    bool backside = false;
-    if (!surface->double_illuminate && vec_dot(layer->normal, s->dir) < SHADE_EPS) {
-        if (layer->finish->diffuse_back == 0.0f)
-            return;
-        backside = true;
-    }
-
-    if (shading->quality.shadows && !light->shadowless && !s->shadow_done) {
-        shadow_filter(tracer, (Ray){surface->hit->p, s->dir}, s->distance, surface->path->inside,
-                      &s->color);
-        s->shadow_done = true;
-    }
-    if (is_black(s->color))
-        return;
-
     Rgb sum = {0};
     Vec3 eye = surface->path->ray.dir;
     finish_diffuse(tracer, layer, s->dir, s->color, backside, &sum);
-    if (!light->shadowless && !backside) {
+    if (!shadowless && !backside) {
         if (layer->finish->phong > 0.0f)
             finish_phong(layer, eye, s->dir, s->color, &sum);
         if (layer->finish->specular > 0.0f)
             finish_specular(layer, eye, s->dir, s->color, &sum);
     }
     if (layer->finish->irid > 0.0f)
-        finish_irid(shading->scene, layer->finish, surface->hit->p, eye, s->dir, layer->normal,
-                    &sum);
+        finish_irid(tracer->shading->scene, layer->finish, surface->hit->p, eye, s->dir,
+                    layer->normal, &sum);
     *color = rgb_add(*color, sum);
+}
+
+static void find_shadow(Tracer *tracer, const Surface *surface, uint32_t index, LightSample *s) {
+    const Light *light = &tracer->shading->scene->lights[index];
+    if (!tracer->shading->quality.shadows || light->shadowless || s->shadow_done)
+        return;
+    if (light->has_area && tracer->shading->quality.area_lights)
+        area_shadow(tracer, surface, index, s);
+    else
+        shadow_filter(tracer, (Ray){surface->hit->p, s->dir}, s->distance, surface->path->inside,
+                      &s->color);
+    s->shadow_done = true;
+}
+
+static void add_light(Tracer *tracer, const LitLayer *layer, uint32_t index, Rgb *color) {
+    const Shading *shading = tracer->shading;
+    const Surface *surface = layer->surface;
+    const Light *light = &shading->scene->lights[index];
+    bool spread = light->has_area && light->area.illumination && shading->quality.area_lights;
+    LightSample *s = &tracer->lights[index];
+    if (!s->ready) {
+        *s = light_sample(shading, index, surface->hit->p, vec3(0, 0, 0));
+        if (spread) // attenuated point by point
+            s->color = light->color;
+    }
+    if (light_is_black(s->color))
+        return;
+    bool dark = false, behind = !spread && light_behind(layer, s->dir, &dark);
+    if (dark)
+        return;
+    find_shadow(tracer, surface, index, s);
+    if (light_is_black(s->color))
+        return;
+    if (spread)
+        area_shine(tracer, layer, index, s, color);
+    else
+        light_shine(tracer, layer, light->shadowless, s, behind, color);
 }
 
 void lights_add(Tracer *tracer, const LitLayer *layer, Rgb *color) {

@@ -4,6 +4,7 @@
 //   shade.c       a hit: its layers, then what is seen through it and in it
 //   finish.c      diffuse, phong, specular, metallic, iridescence: one light on one layer
 //   light.c       light rays and the sum over the lights
+//   light_area.c  the same for lights that have a size
 //   shadow.c      what is between the hit and a light
 //   reflect.c     reflectivity and the reflected direction
 //   interior.c    the list of bodies a ray is in
@@ -23,7 +24,7 @@
 
 // +Q: what is left out below 9.
 typedef struct {
-    bool ambient_only, quick_color, shadows, refraction, reflection;
+    bool ambient_only, quick_color, shadows, area_lights, refraction, reflection;
 } Quality;
 
 typedef struct {
@@ -31,16 +32,23 @@ typedef struct {
     bool opaque; // a shadow ray ends here without looking at the texture
 } ObjectInfo;
 
+// What is known of a light before there is a surface.
+typedef struct {
+    Vec3 travel;            // unit, from location to point_at; not of a point light
+    double radius, falloff; // spot: cosines; cylinder: lengths
+} LightAxis;
+
 struct Shading {
     const Scene *scene;
     const World *world;
     TraceOptions options;
     Quality quality;
-    bool legacy;           // effective version < 3.7: other formulas for opacity and sky
-    bool all_opaque;       // everything that throws a shadow has ObjectInfo.opaque
-    uint32_t layer_limit;  // layers in the largest texture
-    ObjectInfo *objects;   // one per scene object
-    Vec3 *parallel_travel; // one per light: unit direction in which a parallel light travels
+    bool legacy;          // effective version < 3.7: other formulas for opacity and sky
+    bool all_opaque;      // everything that throws a shadow has ObjectInfo.opaque
+    uint32_t layer_limit; // layers in the largest texture
+    ObjectInfo *objects;  // one per scene object
+    LightAxis *axes;      // one per light
+    size_t grid_limit;    // points in the largest area light
     Arena *arena;
 };
 
@@ -60,6 +68,7 @@ typedef struct {
     Vec3 dir; // unit, towards the light
     double distance;
     Rgb color; // attenuated; after shadow_done also by what lies between
+    double attenuation;
     bool ready, shadow_done;
 } LightSample;
 
@@ -75,7 +84,9 @@ struct Tracer {
     const Shading *shading;
     RayStats stats;
     uint32_t crand;               // state of the generator, from the camera ray's bits
+    uint32_t area_jitter;         // the same for points of area lights
     LightSample *lights;          // one per light, for the hit being shaded
+    Rgb *grid;                    // light_area.c: what is known of the area light at hand
     LayerReflection *reflections; // a stack; each hit under way holds a piece of it
     uint32_t reflection_top;      // pieces in use
     Vec3 start;                   // where the last camera ray began
@@ -115,6 +126,22 @@ uint32_t surface_texture(const Object *object, double normal_dot_dir);
 // light.c: adds what the lights give to a layer.
 void lights_add(Tracer *tracer, const LitLayer *layer, Rgb *color);
 void lights_reset(Tracer *tracer); // a new hit is being shaded
+
+// What arrives of a light at p when nothing is between: from its location moved by offset.
+LightSample light_sample(const Shading *shading, uint32_t index, Vec3 p, Vec3 offset);
+bool light_is_black(Rgb color);
+// One light, from one direction: what the finish makes of it.
+void light_shine(Tracer *tracer, const LitLayer *layer, bool shadowless, const LightSample *sample,
+                 bool backside, Rgb *color);
+// Is it behind the surface? False also where that does not matter. *dark: then nothing is lit.
+bool light_behind(const LitLayer *layer, Vec3 dir, bool *dark);
+
+// light_area.c
+// Replaces sample->color by the mean over the grid of what the shadows leave of it.
+void area_shadow(Tracer *tracer, const Surface *surface, uint32_t index, LightSample *sample);
+// area_illumination: the layer under each point of the grid. color: what one of them sends.
+void area_shine(Tracer *tracer, const LitLayer *layer, uint32_t index, const LightSample *sample,
+                Rgb *color);
 
 // shadow.c: multiplies color by what ray (from the surface, unit dir) lets through to a light at
 // that distance. inside: the bodies around the surface's own ray.

@@ -5,6 +5,7 @@
 
 #include "texture/noise.h"
 
+#include <math.h>
 #include <string.h>
 
 // Rays passed straight through cost no level, so a stack of transparent surfaces nests as deep as
@@ -17,6 +18,7 @@ static Quality quality_of(int level) {
         .ambient_only = level <= 1,
         .quick_color = level <= 5,
         .shadows = level >= 4,
+        .area_lights = level >= 5,
         .refraction = level >= 6,
         .reflection = level >= 8,
     };
@@ -42,6 +44,23 @@ static void prepare_objects(Shading *shading) {
     }
 }
 
+static void prepare_lights(Shading *shading) {
+    const Scene *scene = shading->scene;
+    shading->axes = ARENA_ARRAY(shading->arena, LightAxis, scene->light_count);
+    for (uint32_t i = 0; i < scene->light_count; i++) {
+        const Light *light = &scene->lights[i];
+        LightAxis *axis = &shading->axes[i];
+        if (light->type != LIGHT_POINT)
+            axis->travel = vec_normalize(vec_sub(light->point_at, light->location));
+        bool spot = light->type == LIGHT_SPOT;
+        axis->radius = spot ? cos(light->radius * M_PI / 180.0) : light->radius;
+        axis->falloff = spot ? cos(light->falloff * M_PI / 180.0) : light->falloff;
+        size_t points = (size_t)light->area.size[0] * (size_t)light->area.size[1];
+        if (light->has_area && points > shading->grid_limit)
+            shading->grid_limit = points;
+    }
+}
+
 Shading *shading_create(const Scene *scene, const World *world, const TraceOptions *options) {
     noise_prepare();
     Arena *arena = arena_create();
@@ -56,12 +75,7 @@ Shading *shading_create(const Scene *scene, const World *world, const TraceOptio
     for (uint32_t i = 0; i < scene->texture_count; i++)
         if (scene->textures[i].layer_count > shading->layer_limit)
             shading->layer_limit = scene->textures[i].layer_count;
-    shading->parallel_travel = ARENA_ARRAY(arena, Vec3, scene->light_count);
-    for (uint32_t i = 0; i < scene->light_count; i++) {
-        const Light *light = &scene->lights[i];
-        if (light->type == LIGHT_PARALLEL)
-            shading->parallel_travel[i] = vec_normalize(vec_sub(light->point_at, light->location));
-    }
+    prepare_lights(shading);
     return shading;
 }
 
@@ -76,6 +90,7 @@ Tracer *tracer_create(const Shading *shading) {
     tracer->arena = arena;
     tracer->shading = shading;
     tracer->lights = ARENA_ARRAY(arena, LightSample, shading->scene->light_count);
+    tracer->grid = ARENA_ARRAY(arena, Rgb, shading->grid_limit);
     tracer->reflections =
         ARENA_ARRAY(arena, LayerReflection, (size_t)(NESTING_LIMIT + 1) * shading->layer_limit);
     return tracer;
@@ -124,7 +139,8 @@ static const InteriorList *starting_interiors(Tracer *tracer, Vec3 org) {
 }
 
 // POV-Ray draws crand's grain from one sequence per thread, so that it depends on how the threads
-// share the tiles. Ours starts anew for each camera ray, from the ray itself (FNV-1a of its bits).
+// share the tiles; the jitter of area lights likewise. Ours start anew for each camera ray, from
+// the ray itself (FNV-1a of its bits).
 static uint32_t grain_seed(const Ray *ray) {
     unsigned char bytes[sizeof *ray];
     memcpy(bytes, ray, sizeof bytes);
@@ -143,7 +159,7 @@ Color tracer_trace(Tracer *tracer, const Ray *ray) {
         .kind = RAY_CAMERA,
         .alpha = shading->options.alpha,
     };
-    tracer->crand = grain_seed(ray);
+    tracer->crand = tracer->area_jitter = grain_seed(ray);
     tracer->stats.primary++;
     Color color = trace_path(tracer, &path, false);
     color.filter = 0.0f;

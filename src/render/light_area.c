@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: MIT
+// Lights that have a size (facts: rendering 5): a grid of points about the light's location. A
+// recursion over rectangles of the grid asks for the shadow at their corners and divides those that
+// are not even; a rectangle counts as the mean of its parts, so the points do not all weigh the
+// same.
+#include "render/shading.h"
+
+#include <math.h>
+
+// Corners that differ by more lie in different light.
+static const double UNEVEN = 0.1;
+
+typedef struct {
+    Tracer *tracer;
+    const Surface *surface;
+    const AreaLight *area;
+    uint32_t index;
+    Vec3 axis[2]; // turned to the surface when the light is oriented
+    Rgb color;    // before shadows
+} Grid;
+
+// The same generator as for crand.
+static double jitter_next(Tracer *tracer) {
+    tracer->area_jitter = tracer->area_jitter * 1812433253u + 12345u;
+    return tracer->area_jitter * 0x1p-32 - 0.5;
+}
+
+static void turn_axes(const AreaLight *area, Vec3 towards, Vec3 axis[2]) {
+    axis[0] = area->axis[0];
+    axis[1] = area->axis[1];
+    if (!area->orient)
+        return;
+    // Any vector that is not along the light will do; which one decides on where the points lie.
+    Vec3 other = fabs(fabs(towards.z) - 1.0) < 0.01 ? vec3(0, 1, 0) : vec3(0, 0, 1);
+    Vec3 across = vec_normalize(vec_cross(towards, other));
+    double length = vec_length(area->axis[0]); // POV-Ray makes it square
+    axis[0] = vec_scale(across, length);
+    axis[1] = vec_scale(vec_normalize(vec_cross(towards, across)), length);
+}
+
+static Vec3 grid_offset(const Grid *grid, int i, int j) {
+    const AreaLight *area = grid->area;
+    double at[2] = {i, j};
+    for (int k = 0; k < 2; k++) {
+        if (area->jitter)
+            at[k] += jitter_next(grid->tracer);
+        at[k] = area->size[k] > 1 ? at[k] / (area->size[k] - 1) - 0.5 : 0.0;
+    }
+    if (area->circular && area->size[0] > 1 && area->size[1] > 1) {
+        // The square is drawn in to a disc; POV-Ray shifts the points off its middle.
+        at[0] += 0.001;
+        at[1] += 0.001;
+        double far = hypot(at[0], at[1]);
+        double scale = far > 0.0 ? fmax(fabs(at[0]), fabs(at[1])) / far : 1.0;
+        at[0] *= scale;
+        at[1] *= scale;
+    }
+    return vec_add(vec_scale(grid->axis[0], at[0]), vec_scale(grid->axis[1], at[1]));
+}
+
+// Not yet asked for: no colour of light is so dark.
+static const float UNKNOWN = -1e30f;
+
+static Rgb grid_color(const Grid *grid, int i, int j) {
+    Tracer *tracer = grid->tracer;
+    Rgb *color = &tracer->grid[(size_t)i * (size_t)grid->area->size[1] + (size_t)j];
+    if (color->r != UNKNOWN)
+        return *color;
+    const WorldHit *hit = grid->surface->hit;
+    LightSample s = light_sample(tracer->shading, grid->index, hit->p, grid_offset(grid, i, j));
+    *color = grid->color;
+    shadow_filter(tracer, (Ray){hit->p, s.dir}, s.distance, grid->surface->path->inside, color);
+    return *color;
+}
+
+static bool uneven(Rgb a, Rgb b) {
+    return fabs(a.r - b.r) + fabs(a.g - b.g) + fabs(a.b - b.b) > UNEVEN;
+}
+
+static Rgb rectangle_color(const Grid *grid, int left, int low, int right, int high, int level) {
+    Rgb c[4] = {grid_color(grid, left, low), grid_color(grid, right, low),
+                grid_color(grid, left, high), grid_color(grid, right, high)};
+    bool divide = level < grid->area->adaptive || uneven(c[0], c[1]) || uneven(c[1], c[3]) ||
+                  uneven(c[3], c[2]) || uneven(c[2], c[0]);
+    if (divide && (right - left > 1 || high - low > 1)) {
+        int x0 = (left + right) / 2, x1 = (left + right + 1) / 2;
+        int y0 = (low + high) / 2, y1 = (low + high + 1) / 2;
+        c[0] = rectangle_color(grid, left, low, x0, y0, level + 1);
+        c[1] = rectangle_color(grid, x1, low, right, y0, level + 1);
+        c[2] = rectangle_color(grid, left, y1, x0, high, level + 1);
+        c[3] = rectangle_color(grid, x1, y1, right, high, level + 1);
+    }
+    return rgb_scale(rgb_add(rgb_add(rgb_add(c[0], c[1]), c[2]), c[3]), 0.25);
+}
+
+void area_shadow(Tracer *tracer, const Surface *surface, uint32_t index, LightSample *sample) {
+    const AreaLight *area = &tracer->shading->scene->lights[index].area;
+    Grid grid = {tracer, surface, area, index, {vec3(0, 0, 0)}, sample->color};
+    turn_axes(area, sample->dir, grid.axis);
+    size_t points = (size_t)area->size[0] * (size_t)area->size[1];
+    for (size_t i = 0; i < points; i++)
+        tracer->grid[i].r = UNKNOWN;
+    sample->color = rectangle_color(&grid, 0, 0, area->size[0] - 1, area->size[1] - 1, 0);
+}
+
+void area_shine(Tracer *tracer, const LitLayer *layer, uint32_t index, const LightSample *sample,
+                Rgb *color) {
+    const Light *light = &tracer->shading->scene->lights[index];
+    const AreaLight *area = &light->area;
+    Grid grid = {tracer, layer->surface, area, index, {vec3(0, 0, 0)}, sample->color};
+    turn_axes(area, sample->dir, grid.axis);
+    double points = area->size[0] * area->size[1];
+    Rgb part = rgb((float)(sample->color.r / points), (float)(sample->color.g / points),
+                   (float)(sample->color.b / points));
+    for (int j = 0; j < area->size[1]; j++)
+        for (int i = 0; i < area->size[0]; i++) {
+            LightSample s = light_sample(tracer->shading, index, layer->surface->hit->p,
+                                         grid_offset(&grid, i, j));
+            s.color = rgb_scale(part, s.attenuation);
+            bool dark, behind = light_behind(layer, s.dir, &dark);
+            if (!dark)
+                light_shine(tracer, layer, light->shadowless, &s, behind, color);
+        }
+}

@@ -138,7 +138,7 @@ bool object_is_tree(const Object *object) {
     X(caustics)                                                                                    \
     X(cells)                                                                                       \
     X(checker)                                                                                     \
-    X(clipped_by)                                                                                   \
+    X(clipped_by)                                                                                  \
     X(cone)                                                                                        \
     X(conserve_energy)                                                                             \
     X(crackle)                                                                                     \
@@ -156,7 +156,7 @@ bool object_is_tree(const Object *object) {
     X(hollow)                                                                                      \
     X(interior_fade)                                                                               \
     X(interior_texture)                                                                            \
-    X(intersection)                                                                                 \
+    X(intersection)                                                                                \
     X(inverse)                                                                                     \
     X(irid)                                                                                        \
     X(layered_texture)                                                                             \

@@ -320,7 +320,7 @@ typedef struct {
     // air interior of its own; two objects with the same index are one body to a ray.
     uint32_t texture, interior_texture, interior;
     bool no_shadow, no_image, no_reflection, hollow, double_illuminate;
-    bool inverse; // of leaves only: the inverse of a tree is lowered to that of its leaves
+    bool inverse;    // of leaves only: the inverse of a tree is lowered to that of its leaves
     bool uv_mapping; // object level: all its textures are evaluated at (u, v, 0)
     bool has_transform;
     Transform transform; // local to world, for SPHERE .. DISC

@@ -336,8 +336,8 @@ static const Record SKY_SPHERE = {NULL, SKY_SPHERE_FIELDS, sizeof(SkySphere), de
 
 // ORDER object_type
 const char *const OBJECT_TYPE_NAMES[] = {
-    "union",    "merge", "intersection", "bicubic_patch", "plane", "sphere",   "box",
-    "cylinder", "cone",  "torus",         "disc",  "triangle", NULL,
+    "union",    "merge", "intersection", "bicubic_patch", "plane",    "sphere", "box",
+    "cylinder", "cone",  "torus",        "disc",          "triangle", NULL,
 };
 const char BEZIER_PATCH_NAME[] = "bezier_patch";
 

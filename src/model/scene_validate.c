@@ -528,8 +528,7 @@ static void check_list(Check *c, const FieldPath *up, const char *name, const ui
             check_list(c, &path, "children", object->shape.children.items,
                        object->shape.children.count, depth + 1);
         if (object->clips.count > 0)
-            check_list(c, &path, "clipped_by", object->clips.items, object->clips.count,
-                       depth + 1);
+            check_list(c, &path, "clipped_by", object->clips.items, object->clips.count, depth + 1);
     }
 }
 

@@ -41,8 +41,8 @@ typedef struct {
     ARRAY(CsgNode) nodes;
 } Maker;
 
-// Returns the node; NO_INDEX: no object there that needs one. Until narrow_reaches a node's reach is
-// the box of its own surface.
+// Returns the node; NO_INDEX: no object there that needs one. Until narrow_reaches a node's reach
+// is the box of its own surface.
 static uint32_t make_node(Maker *maker, uint32_t index, uint32_t parent, bool framed, int depth);
 
 static Box patch_box(const PatchShape *patch) {
@@ -93,8 +93,8 @@ static void join_children(const Maker *maker, CsgNode *node) {
         const CsgNode *child = &maker->nodes.items[c];
         Box whole = box_union(child->reach, child->inside);
         node->reach = all ? box_common(node->reach, whole) : box_union(node->reach, child->reach);
-        node->inside = all ? box_common(node->inside, child->inside)
-                           : box_union(node->inside, child->inside);
+        node->inside =
+            all ? box_common(node->inside, child->inside) : box_union(node->inside, child->inside);
         node->child_count++;
         node->solid_count += child->solid;
     }

@@ -84,11 +84,16 @@ static uint32_t use_shared(Emitter *e, SharedInterior *shared) {
 typedef struct {
     const TextureNode *texture, *interior_texture;
     SharedInterior *interior; // NULL at top level
+    const Loc *cutaway;       // cutaway_textures around
+    bool textured;            // texture is not the default one
+    bool body;                // of clipped_by: only its shape counts
     bool uv_mapping, no_shadow, no_image, no_reflection;
     bool hollow, double_set, double_illuminate;
 } Inherited;
 
 static uint32_t emit_object(Emitter *e, const ObjectNode *node, const Inherited *from);
+
+static void emit_clips(Emitter *e, const ObjectNode *node, Object *object);
 
 static uint32_t store_object(Emitter *e, const Object *object) {
     array_push(&e->objects, *object);
@@ -100,6 +105,8 @@ static Inherited inherit(const ObjectNode *node, const Inherited *from) {
     const Object *object = &node->object;
     Inherited own = *from;
     own.texture = node->texture ? node->texture : from->texture;
+    own.textured = node->texture || from->textured;
+    own.cutaway = node->cutaway ? node->cutaway : from->cutaway;
     own.interior_texture = node->interior_texture ? node->interior_texture : from->interior_texture;
     bool takes_uv = !node->texture || !node->interior_texture;
     own.uv_mapping = object->uv_mapping || (from->uv_mapping && takes_uv);
@@ -131,7 +138,45 @@ static uint32_t emit_light(Emitter *e, const ObjectNode *node, const Inherited *
     return emit_object(e, node->light->looks_like, from);
 }
 
-static uint32_t emit_union(Emitter *e, const ObjectNode *node, Inherited *own) {
+// ---- cutaway_textures
+
+// The first texture in the tree, NULL without one; *mixed: there are others.
+static const TextureNode *find_texture(const ObjectNode *node, bool *mixed) {
+    if (node->texture)
+        return node->texture;
+    const TextureNode *found = NULL;
+    for (const ObjectNode *child = node->first; child; child = child->next) {
+        const TextureNode *more = find_texture(child, mixed);
+        *mixed = *mixed || (found && more && more != found);
+        found = found ? found : more;
+    }
+    return found;
+}
+
+// A cut without a texture takes that of the children around it: of a difference only the first
+// counts (facts: rendering 8). Where they have one texture, that is known here.
+static void cut_away(Emitter *e, const ObjectNode *node, Inherited *own) {
+    if (!own->cutaway || own->textured || node->object.type != OBJECT_INTERSECTION)
+        return;
+    bool mixed = false;
+    const TextureNode *texture = NULL;
+    if (node->keyword == KW_difference && node->first)
+        texture = find_texture(node->first, &mixed);
+    if (!texture)
+        texture = find_texture(node, &mixed);
+    if (!texture)
+        return;
+    if (mixed)
+        emit_gap(e, own->cutaway,
+                 "cutaway_textures of several textures is not modelled: cuts show the first");
+    own->texture = texture;
+    own->textured = true;
+}
+
+// ---- trees
+
+static uint32_t emit_tree(Emitter *e, const ObjectNode *node, Inherited *own) {
+    cut_away(e, node, own);
     SharedInterior shared = {.node = node->interior, .texture = own->texture, .index = NO_INDEX};
     if (node->interior || !own->interior)
         own->interior = &shared;
@@ -149,14 +194,18 @@ static uint32_t emit_union(Emitter *e, const ObjectNode *node, Inherited *own) {
         return NO_INDEX;
     Object object = node->object;
     apply_flags(&object, own);
-    object.shape.children.items = items;
-    object.shape.children.count = count;
+    object.shape.children = (ObjectList){items, count};
+    emit_clips(e, node, &object);
     return store_object(e, &object);
 }
 
 static uint32_t emit_leaf(Emitter *e, const ObjectNode *node, const Inherited *own) {
     Object object = node->object;
     apply_flags(&object, own);
+    if (object.type != OBJECT_PATCH)
+        emit_clips(e, node, &object);
+    if (own->body)
+        return store_object(e, &object);
     object.texture = emit_texture(e, own->texture);
     if (own->interior_texture)
         object.interior_texture = emit_texture(e, own->interior_texture);
@@ -196,11 +245,8 @@ static bool cuts_box(const ObjectNode *list, const Box *box) {
 // POV-Ray ignores clipped_by on a patch, but both it and bounded_by can shrink the patch's box, and
 // rays that miss the box miss the patch (facts: rendering 7.7). Elsewhere a bound is a hint.
 static void check_bodies(Emitter *e, const ObjectNode *node) {
-    if (node->object.type != OBJECT_PATCH) {
-        if (node->clips)
-            emit_gap(e, node->clip_loc, "clipped_by is not modelled: the object is shown whole");
+    if (node->object.type != OBJECT_PATCH)
         return;
-    }
     Box box = box_empty();
     for (int i = 0; i < 16; i++)
         box = box_extend(box, node->object.shape.patch.points[i]);
@@ -222,13 +268,70 @@ static void emit_lights(Emitter *e, const ObjectNode *node) {
     }
 }
 
-static uint32_t emit_object(Emitter *e, const ObjectNode *node, const Inherited *from) {
-    if (!node->modelled) {
-        emit_lights(e, node);
+// ---- what is not modelled
+
+// Does it only take away, where it stands in an intersection? Then that can do without it.
+static bool only_cuts(const ObjectNode *node) {
+    if (node->light)
+        return !node->light->looks_like;
+    if (!keyword_is_csg(node->keyword))
+        return node->object.inverse;
+    for (const ObjectNode *child = node->first; child; child = child->next)
+        if (!only_cuts(child))
+            return false;
+    return true;
+}
+
+// Is there anything of it to show? An intersection needs all that bounds it.
+static bool is_there(const ObjectNode *node) {
+    if (node->light)
+        return node->light->looks_like && is_there(node->light->looks_like);
+    if (!node->modelled || !object_is_tree(&node->object))
+        return node->modelled;
+    bool any = false;
+    for (const ObjectNode *child = node->first; child; child = child->next) {
+        bool there = is_there(child);
+        if (!there && node->object.type == OBJECT_INTERSECTION && !only_cuts(child))
+            return false;
+        any = any || there;
+    }
+    return any;
+}
+
+// Says what is missing in a tree that is left out.
+static void emit_missing(Emitter *e, const ObjectNode *node) {
+    for (const ObjectNode *child = node->first; child; child = child->next)
+        emit_missing(e, child);
+    if (node->modelled)
+        emit_gaps(e, node->gaps);
+    else
         emit_gap(e, node->loc,
                  arena_printf(e->cv->arena,
                               "'%s' is not modelled: the object is missing in the picture",
                               keyword_name(node->keyword)));
+}
+
+// Clips make the object smaller; without one that is not modelled it would be wrong to keep others.
+static void emit_clips(Emitter *e, const ObjectNode *node, Object *object) {
+    const Inherited from = {.body = true};
+    uint32_t count = 0;
+    for (const ObjectNode *clip = node->clips; clip; clip = clip->next, count++)
+        if (!is_there(clip)) {
+            emit_missing(e, clip);
+            emit_gap(e, node->clip_loc, "clipped_by is left out: the object is shown whole");
+            return;
+        }
+    if (count == 0)
+        return;
+    object->clips.items = ARENA_ARRAY(e->cv->arena, uint32_t, count);
+    for (const ObjectNode *clip = node->clips; clip; clip = clip->next)
+        object->clips.items[object->clips.count++] = emit_object(e, clip, &from);
+}
+
+static uint32_t emit_object(Emitter *e, const ObjectNode *node, const Inherited *from) {
+    if (!node->light && !is_there(node)) {
+        emit_lights(e, node);
+        emit_missing(e, node);
         return NO_INDEX;
     }
     emit_gaps(e, node->gaps);
@@ -236,8 +339,8 @@ static uint32_t emit_object(Emitter *e, const ObjectNode *node, const Inherited 
     if (node->light)
         return emit_light(e, node, &own);
     check_bodies(e, node);
-    if (node->object.type == OBJECT_UNION || node->object.type == OBJECT_MERGE)
-        return emit_union(e, node, &own);
+    if (object_is_tree(&node->object))
+        return emit_tree(e, node, &own);
     return emit_leaf(e, node, &own);
 }
 

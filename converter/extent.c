@@ -125,6 +125,7 @@ static Box leaf_box(const Object *object) {
     case OBJECT_PLANE:
     case OBJECT_UNION:
     case OBJECT_MERGE:
+    case OBJECT_INTERSECTION:
         break;
     }
     return infinite_box();
@@ -191,8 +192,7 @@ bool node_extent(const ObjectNode *node, Box *out) {
     *out = node->box;
     if (node->has_box)
         return true;
-    bool is_union = node->object.type == OBJECT_UNION || node->object.type == OBJECT_MERGE;
-    if (!node->modelled || (is_union && !node->light))
+    if (!node->modelled || (object_is_tree(&node->object) && !node->light))
         return false;
     Box box = node->light ? infinite_box() : leaf_box(&node->object);
     if (!shrink(node->bounds, &box) || !shrink(node->clips, &box))

@@ -62,6 +62,7 @@ static bool parse_rare_flag(Converter *cv, ObjectNode *node, const Token *token)
             die_misplaced(cv, token,
                           "'cutaway_textures' can only be used in intersection and difference");
         next_token(cv);
+        node->cutaway = keep_place(cv, token);
         return true;
     case KW_inverse:
         next_token(cv);

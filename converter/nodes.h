@@ -240,6 +240,7 @@ struct ObjectNode {
     ObjectNode *first, *last; // children
     ObjectNode *bounds, *clips;
     const Loc *bound_loc, *clip_loc;
+    const Loc *cutaway; // of cutaway_textures
     Box box; // of a CSG, as extent.c keeps it
     bool has_box;
     LightNode *light;

@@ -20,6 +20,10 @@ static bool object_type(int keyword, ObjectType *type) {
     case KW_merge:
         *type = OBJECT_MERGE;
         return true;
+    case KW_intersection:
+    case KW_difference:
+        *type = OBJECT_INTERSECTION;
+        return true;
     case KW_bicubic_patch:
         *type = OBJECT_PATCH;
         return true;
@@ -144,18 +148,16 @@ void object_move(Converter *cv, ObjectNode *object, Move *move) {
     csg_box_move(object, move);
 }
 
-// The inverse of a union is the intersection of the inverses, and the other way round.
+// The inverse of a union or merge is the intersection of the inverses; that of an intersection is
+// the merge of them: its inner walls are gone (measured).
 static void invert_csg(Converter *cv, ObjectNode *object) {
-    bool becomes_union = object->keyword == KW_intersection || object->keyword == KW_difference;
+    bool becomes_merge = object->keyword == KW_intersection || object->keyword == KW_difference;
     object_unshare(cv, object);
     for (ObjectNode *child = object->first; child; child = child->next)
         if (!child->surface && !child->light)
             object_invert(cv, child);
-    object->keyword = becomes_union ? KW_union : KW_intersection;
-    object->modelled = becomes_union;
-    object->object.type = OBJECT_UNION;
-    if (!becomes_union && !object->loc)
-        object->loc = keep_place(cv, peek_token(cv));
+    object->keyword = becomes_merge ? KW_merge : KW_intersection;
+    object->object.type = becomes_merge ? OBJECT_MERGE : OBJECT_INTERSECTION;
 }
 
 void object_invert(Converter *cv, ObjectNode *object) {

@@ -146,6 +146,7 @@ bool shape_is_finite(const Object *object) {
     case OBJECT_PATCH: // checked point by point
     case OBJECT_UNION:
     case OBJECT_MERGE:
+    case OBJECT_INTERSECTION:
         break;
     }
     return true;
@@ -262,6 +263,7 @@ void shape_move(ObjectNode *node, const Move *move) {
     switch (object->type) {
     case OBJECT_UNION:
     case OBJECT_MERGE:
+    case OBJECT_INTERSECTION:
         break;
     case OBJECT_PATCH: {
         PatchShape *patch = &object->shape.patch;

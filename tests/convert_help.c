@@ -131,7 +131,7 @@ const Object *root(const Scene *scene, uint32_t i) {
 }
 
 const Object *child(const Scene *scene, const Object *object, uint32_t i) {
-    assert_true(object->type == OBJECT_UNION || object->type == OBJECT_MERGE);
+    assert_true(object_is_tree(object));
     assert_true(i < object->shape.children.count);
     return &scene->objects[object->shape.children.items[i]];
 }

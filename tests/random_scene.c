@@ -419,6 +419,7 @@ static void make_shape(Rng *rng, Arena *arena, Object *object) {
     switch (object->type) {
     case OBJECT_UNION:
     case OBJECT_MERGE:
+    case OBJECT_INTERSECTION:
         break;
     case OBJECT_PATCH:
         make_patch(rng, arena, &object->shape.patch);
@@ -461,7 +462,7 @@ static uint32_t make_objects(Rng *rng, Arena *arena, Scene *scene, int depth, ui
     *items = ARENA_ARRAY(arena, uint32_t, count);
     for (uint32_t i = 0; i < count; i++) {
         bool leaf = depth > 3 || scene->object_count > MAX_OBJECTS - 60;
-        ObjectType type = (ObjectType)(leaf ? 2 + random_below(rng, 9) : random_below(rng, 11));
+        ObjectType type = (ObjectType)(leaf ? 3 + random_below(rng, 9) : random_below(rng, 12));
         uint32_t index = scene->object_count++;
         Object object = object_default(type);
         object.texture = index_or_none(rng, scene->texture_count);
@@ -475,9 +476,11 @@ static uint32_t make_objects(Rng *rng, Arena *arena, Scene *scene, int depth, ui
             object.transform = random_transform(rng);
         }
         make_shape(rng, arena, &object);
-        if (type == OBJECT_UNION || type == OBJECT_MERGE)
+        if (object_is_tree(&object))
             object.shape.children.count =
                 make_objects(rng, arena, scene, depth + 1, &object.shape.children.items);
+        if (!leaf && type != OBJECT_PATCH && random_below(rng, 4) == 0)
+            object.clips.count = make_objects(rng, arena, scene, depth + 1, &object.clips.items);
         scene->objects[index] = object;
         (*items)[i] = index;
     }
@@ -638,6 +641,7 @@ static const char *shape_difference(const Object *a, const Object *b) {
     switch (a->type) {
     case OBJECT_UNION:
     case OBJECT_MERGE:
+    case OBJECT_INTERSECTION:
         COMPARE(uint32_t, shape.children.count)
         COMPARE_ALL(a->shape.children.items, b->shape.children.items, a->shape.children.count)
         break;
@@ -675,6 +679,8 @@ static const char *shape_difference(const Object *a, const Object *b) {
 
 static const char *object_difference(const Object *a, const Object *b) {
     OBJECT_MEMBERS(COMPARE)
+    COMPARE(uint32_t, clips.count)
+    COMPARE_ALL(a->clips.items, b->clips.items, a->clips.count)
     const char *difference = transform_difference(&a->transform, &b->transform);
     return difference ? difference : shape_difference(a, b);
 }

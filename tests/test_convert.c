@@ -147,8 +147,13 @@ static void inverse_objects(void **state) {
     assert_near(root(s, 0)->shape.plane.distance, -2);
     assert_true(root(s, 1)->inverse);
     assert_false(root(s, 2)->inverse);
-    assert_warns("union { sphere { 0, 1 } sphere { x, 1 } inverse }", "'intersection' is not");
-    assert_silent("merge { sphere { 0, 1 } sphere { x, 1 } inverse inverse }");
+    s = scene_of("union { sphere { 0, 1 } plane { y, 2 } inverse }");
+    assert_int_equal(root(s, 0)->type, OBJECT_INTERSECTION);
+    assert_true(child(s, root(s, 0), 0)->inverse);
+    assert_vec(child(s, root(s, 0), 1)->shape.plane.normal, 0, -1, 0);
+    s = scene_of("merge { sphere { 0, 1 } sphere { x, 1 } inverse inverse }");
+    assert_int_equal(root(s, 0)->type, OBJECT_MERGE);
+    assert_false(child(s, root(s, 0), 0)->inverse);
     assert_warns("triangle { 0, x, y inverse }", "inverse has no effect");
 }
 
@@ -228,9 +233,10 @@ static void patch_bounds(void **state) {
     snprintf(text, sizeof text, "%s clipped_by { box { -1, 2 } } }", patch);
     assert_warns(text, "clipped_by may cut this patch");
     assert_silent("sphere { 0, 1 bounded_by { box { -1, 1 } } }");
-    assert_warns("sphere { 0, 1 clipped_by { plane { y, 0 } } }", "clipped_by is not modelled");
-    assert_warns("sphere { 0, 1 clipped_by { plane { y, 0 } } bounded_by { clipped_by } }",
-                 "clipped_by is not modelled");
+    assert_silent("sphere { 0, 1 clipped_by { plane { y, 0 } } bounded_by { clipped_by } }");
+    assert_warns(
+        "sphere { 0, 1 clipped_by { plane { y, 0 } blob { threshold 1 sphere { 0, 1, 1 } } } }",
+        "'blob' is not modelled");
     snprintf(text, sizeof text, "sphere { 0, 1 bounded_by { %s } } }", patch);
     assert_dies(text, "without an inside");
 }
@@ -325,6 +331,44 @@ static void lights_leave_their_unions(void **state) {
     assert_dies("light_source { 0, 1 area_light x, y, 0, 3 }", "1 to 2048 points");
 }
 
+// ---- constructive solid geometry
+
+static void trees_and_clips(void **state) {
+    (void)state;
+    Scene *s = scene_of("difference { box { -1, 1 } sphere { 0, 1 } intersection { sphere { 0, 1 } "
+                        "torus { 1, 0.2 } } bicubic_patch { type 1 " PATCH_POINTS "} }");
+    const Object *tree = root(s, 0);
+    assert_int_equal(tree->type, OBJECT_INTERSECTION);
+    assert_int_equal(tree->shape.children.count, 4);
+    assert_false(child(s, tree, 0)->inverse);
+    assert_true(child(s, tree, 1)->inverse);
+    assert_int_equal(child(s, tree, 2)->type, OBJECT_MERGE);
+    assert_true(child(s, child(s, tree, 2), 1)->inverse);
+    assert_false(child(s, tree, 3)->inverse); // a patch has no inside
+
+    // Clips move with the object from where they were given; they carry neither texture nor body.
+    s = scene_of("sphere { 0, 1 translate x clipped_by { plane { y, 1 } union { sphere { 0, 1 } "
+                 "box { 0, 1 } } } translate 2*y pigment { rgb 1 } }");
+    const Object *sphere = root(s, 0);
+    assert_int_equal(sphere->clips.count, 2);
+    const Object *plane = &s->objects[sphere->clips.items[0]];
+    assert_near(plane->shape.plane.distance, 3);
+    assert_true(plane->texture == NO_INDEX && plane->interior == NO_INDEX);
+    assert_vec(child(s, &s->objects[sphere->clips.items[1]], 0)->shape.sphere.center, 0, 2, 0);
+
+    // Without a modelled cutter it stays whole; without what bounds it nothing may be left.
+    Converted result = convert_text("difference { sphere { 0, 1 } blob { threshold 1 sphere { 0, 1,"
+                                    " 1 } } }");
+    assert_int_equal(result.scene->object_count, 2);
+    assert_int_equal(result.warnings, 1);
+    result = convert_text("difference { blob { threshold 1 sphere { 0, 1, 1 } } sphere { 0, 1 } }");
+    assert_int_equal(result.scene->object_count, 0);
+    assert_silent("difference { sphere { 0, 1 pigment { rgb 1 } } box { 0, 1 } cutaway_textures }");
+    assert_warns("difference { union { sphere { 0, 1 pigment { rgb 1 } } sphere { x, 1 pigment { "
+                 "rgb 0.5 } } } box { 0, 1 } cutaway_textures }",
+                 "cutaway_textures of several");
+}
+
 // ---- what is not modelled
 // ---------------------------------------------------------------------------
 
@@ -344,8 +388,8 @@ static void gaps_are_said_when_used(void **state) {
     result = convert_text("global_settings { radiosity { count 3 } } fog { distance 3 rgb 1 } "
                           "fog { distance 0 rgb 1 } sphere { 0, 1 }");
     assert_int_equal(result.warnings, 2);
-    result = convert_text("intersection { sphere { 0, 1 } box { 0, 1 } } union { sphere { 0, 1 } "
-                          "quadric { 1, 0, 0, 0 } }");
+    result = convert_text("intersection { sphere { 0, 1 } ovus { 2, 1 } } union { sphere { 0, 1 } "
+                          "ovus { 2, 1 } }");
     assert_int_equal(result.scene->object_count, 2);
     assert_int_equal(result.warnings, 2);
 }
@@ -520,6 +564,7 @@ int main(void) {
         cmocka_unit_test(patch_points_of_all_kinds),
         cmocka_unit_test(patch_errors),
         cmocka_unit_test(patch_bounds),
+        cmocka_unit_test(trees_and_clips),
         cmocka_unit_test(unions_pass_on),
         cmocka_unit_test(unions_share_an_interior),
         cmocka_unit_test(uv_flag),

@@ -285,8 +285,8 @@ static void other_objects_are_read(void **state) {
         "superellipsoid { <0.5, 0.5> }",
         "text { ttf \"timrom.ttf\" \"Hello\" 0.1, 0 }",
         "text { internal 1 \"Hello\", 0.1, <0,0,0> }",
-        "intersection { sphere { 0, 1 } box { 0, 1 } cutaway_textures }",
-        "difference { sphere { 0, 1 } union { box { 0, 1 } sphere { x, 1 } } }",
+        "intersection { ovus { 2, 1 } box { 0, 1 } cutaway_textures }",
+        "difference { ovus { 2, 1 } union { box { 0, 1 } sphere { x, 1 } } }",
     };
     for (size_t i = 0; i < sizeof objects / sizeof *objects; i++) {
         char text[2048];

@@ -156,6 +156,7 @@ static Object random_object(Stage *stage, Rng *rng, ObjectType type) {
     }
     case OBJECT_UNION:
     case OBJECT_MERGE:
+    case OBJECT_INTERSECTION:
         break;
     }
     return object;

@@ -64,7 +64,7 @@ void stage_end(Stage *stage) {
 }
 
 bool stage_is_group(const Object *object) {
-    return object->type == OBJECT_UNION || object->type == OBJECT_MERGE;
+    return object_is_tree(object);
 }
 
 Object stage_sphere(Vec3 center, double radius) {

@@ -128,6 +128,11 @@ Object object_default(ObjectType type) {
     return object;
 }
 
+bool object_is_tree(const Object *object) {
+    return object->type == OBJECT_UNION || object->type == OBJECT_MERGE ||
+           object->type == OBJECT_INTERSECTION;
+}
+
 // ---- requires -------------------------------------------------------------------------------
 
 // ORDER feature: sorted by byte, so that features in order give a sorted list.
@@ -145,6 +150,7 @@ Object object_default(ObjectType type) {
     X(caustics)                                                                                    \
     X(cells)                                                                                       \
     X(checker)                                                                                     \
+    X(clipped_by)                                                                                  \
     X(cone)                                                                                        \
     X(conserve_energy)                                                                             \
     X(crackle)                                                                                     \
@@ -163,6 +169,7 @@ Object object_default(ObjectType type) {
     X(hollow)                                                                                      \
     X(interior_fade)                                                                               \
     X(interior_texture)                                                                            \
+    X(intersection)                                                                                \
     X(inverse)                                                                                     \
     X(irid)                                                                                        \
     X(layered_texture)                                                                             \
@@ -326,6 +333,8 @@ static Feature object_feature(const Object *object) {
         return FEATURE_union;
     case OBJECT_MERGE:
         return FEATURE_merge;
+    case OBJECT_INTERSECTION:
+        return FEATURE_intersection;
     case OBJECT_PATCH: {
         const PatchShape *patch = &object->shape.patch;
         bool bicubic = patch->degree_u == 3 && patch->degree_v == 3;
@@ -361,6 +370,7 @@ static void collect_objects(const Scene *scene, FeatureSet *set) {
         need(set, FEATURE_no_reflection, object->no_reflection);
         need(set, FEATURE_hollow, object->hollow);
         need(set, FEATURE_inverse, object->inverse);
+        need(set, FEATURE_clipped_by, object->clips.count > 0);
         need(set, FEATURE_double_illuminate, object->double_illuminate);
         need(set, FEATURE_uv_mapping, object->uv_mapping);
     }

@@ -267,8 +267,10 @@ typedef struct {
 
 // ORDER object_type
 typedef enum {
-    OBJECT_UNION, // children are separate objects
-    OBJECT_MERGE, // hits inside another child are dropped
+    OBJECT_UNION,        // children are separate objects
+    OBJECT_MERGE,        // hits inside another child are dropped
+    OBJECT_INTERSECTION, // hits outside another child are dropped; a difference is one with all
+                         // children but the first inverted
     OBJECT_PATCH,
     OBJECT_PLANE,
     OBJECT_SPHERE,
@@ -328,14 +330,23 @@ typedef struct { // world space
 } TriangleShape;
 
 typedef struct {
+    uint32_t *items;
+    uint32_t count;
+} ObjectList;
+
+typedef struct {
     ObjectType type;
     // Leaves: NO_INDEX in texture means POV-Ray's built-in default (black). interior NO_INDEX: an
     // air interior of its own; two objects with the same index are one body to a ray.
     uint32_t texture, interior_texture, interior;
-    bool no_shadow, no_image, no_reflection, hollow, inverse, double_illuminate;
+    bool no_shadow, no_image, no_reflection, hollow, double_illuminate;
+    bool inverse;    // of leaves only: the inverse of a tree is lowered to that of its leaves
     bool uv_mapping; // object level: all its textures are evaluated at (u, v, 0)
     bool has_transform;
     Transform transform; // local to world, for SPHERE .. DISC
+    // Hits, and the inside, are only where all of these objects are (their flags and textures do
+    // not count). Not on patches: POV-Ray ignores it there.
+    ObjectList clips;
     union {
         PatchShape patch;
         PlaneShape plane;
@@ -345,10 +356,7 @@ typedef struct {
         TorusShape torus;
         DiscShape disc;
         TriangleShape triangle;
-        struct { // UNION, MERGE
-            uint32_t *items;
-            uint32_t count;
-        } children;
+        ObjectList children; // UNION, MERGE, INTERSECTION
     } shape;
 } Object;
 
@@ -395,6 +403,8 @@ Turbulence turbulence_default(void); // without an amount
 Pattern pattern_default(void);
 Warp warp_default(WarpType type);
 Object object_default(ObjectType type);
+// Has it children?
+bool object_is_tree(const Object *object);
 
 // Checks what the renderer relies on: indices in range, trees without cycles, degrees, finite
 // numbers, map positions. Dies naming the field ("objects[3].interior: ..."). file is for messages.

@@ -369,8 +369,8 @@ static const Record SKY_SPHERE = {NULL, SKY_SPHERE_FIELDS, sizeof(SkySphere), de
 
 // ORDER object_type
 const char *const OBJECT_TYPE_NAMES[] = {
-    "union",    "merge", "bicubic_patch", "plane", "sphere",   "box",
-    "cylinder", "cone",  "torus",         "disc",  "triangle", NULL,
+    "union",    "merge", "intersection", "bicubic_patch", "plane",    "sphere", "box",
+    "cylinder", "cone",  "torus",        "disc",          "triangle", NULL,
 };
 const char BEZIER_PATCH_NAME[] = "bezier_patch";
 
@@ -460,6 +460,7 @@ static const Field TRIANGLE_FIELDS[] = {
 static const Record OBJECT_RECORDS[] = {
     {NULL, OBJECT_FIELDS, sizeof(Object), NULL, NULL}, // union
     {NULL, OBJECT_FIELDS, sizeof(Object), NULL, NULL}, // merge
+    {NULL, OBJECT_FIELDS, sizeof(Object), NULL, NULL}, // intersection
     {&OBJECT, PATCH_FIELDS, sizeof(Object), NULL, NULL},
     {&OBJECT, PLANE_FIELDS, sizeof(Object), NULL, NULL},
     {&OBJECT, SPHERE_FIELDS, sizeof(Object), NULL, NULL},

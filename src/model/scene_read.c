@@ -19,8 +19,8 @@
 // ---- objects --------------------------------------------------------------------------------
 
 static const char *const PATCH_KEYS[] = {"type", "count", "degree", "points", NULL};
-static const char *const TREE_KEYS[] = {"type", "children", NULL};
-static const char *const OTHER_KEYS[] = {"type", NULL};
+static const char *const TREE_KEYS[] = {"type", "children", "clipped_by", NULL};
+static const char *const OTHER_KEYS[] = {"type", "clipped_by", NULL};
 
 // The type of the object; *any_degree for "bezier_patch".
 static ObjectType read_type(const Reader *r, const FieldPath *path, json_t *json,
@@ -77,11 +77,14 @@ static uint64_t count_objects(Reader *r, const FieldPath *up, const char *name, 
         bool any_degree;
         ObjectType type = read_type(r, &path, item, &any_degree);
         json_t *children = json_object_get(item, "children");
+        json_t *clips = json_object_get(item, "clipped_by");
         if (type != OBJECT_PATCH && json_object_get(item, "count"))
             path_die(r->file, &path, "unknown field 'count'");
         total += claim_count(r, &path, item);
         if (children)
             total += count_objects(r, &path, "children", children, depth + 1);
+        if (clips)
+            total += count_objects(r, &path, "clipped_by", clips, depth + 1);
     }
     return total;
 }
@@ -211,7 +214,7 @@ static uint32_t read_object(Reader *r, const FieldPath *path, json_t *json, uint
     r->object_count += count;
 
     *objects = object_default(type);
-    bool tree = type == OBJECT_UNION || type == OBJECT_MERGE;
+    bool tree = object_is_tree(objects);
     read_record(r, path, json, object_record(type), objects,
                 type == OBJECT_PATCH ? PATCH_KEYS
                 : tree               ? TREE_KEYS
@@ -225,6 +228,9 @@ static uint32_t read_object(Reader *r, const FieldPath *path, json_t *json, uint
         objects->shape.children.items =
             read_objects(r, path, "children", children, &objects->shape.children.count);
     }
+    json_t *clips = json_object_get(json, "clipped_by");
+    if (clips)
+        objects->clips.items = read_objects(r, path, "clipped_by", clips, &objects->clips.count);
     return count;
 }
 

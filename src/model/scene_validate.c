@@ -461,6 +461,7 @@ static void check_shape(const Check *c, const FieldPath *path, const Object *obj
     switch (object->type) {
     case OBJECT_UNION:
     case OBJECT_MERGE:
+    case OBJECT_INTERSECTION:
         break; // check_list goes on
     case OBJECT_PATCH:
         check_patch(c, path, &object->shape.patch);
@@ -516,6 +517,8 @@ static void check_object(const Check *c, const FieldPath *path, const Object *ob
         refuse(c, &transform, "this type has no local space");
     if (object->has_transform)
         check_transform(c, path, "transform", &object->transform);
+    if (object->clips.count > 0 && object->type == OBJECT_PATCH)
+        refuse(c, path, "a patch cannot have 'clipped_by': put it into a union that has");
     check_shape(c, path, object);
 }
 
@@ -535,9 +538,11 @@ static void check_list(Check *c, const FieldPath *up, const char *name, const ui
         c->met[index] = true;
         const Object *object = &c->scene->objects[index];
         check_object(c, &path, object);
-        if (object->type == OBJECT_UNION || object->type == OBJECT_MERGE)
+        if (object_is_tree(object))
             check_list(c, &path, "children", object->shape.children.items,
                        object->shape.children.count, depth + 1);
+        if (object->clips.count > 0)
+            check_list(c, &path, "clipped_by", object->clips.items, object->clips.count, depth + 1);
     }
 }
 

@@ -323,9 +323,13 @@ static void write_object(Writer *w, const Object *object) {
     if (object->type == OBJECT_PATCH) {
         member(w, &state, "points");
         write_points(w, &object->shape.patch);
-    } else if (object->type == OBJECT_UNION || object->type == OBJECT_MERGE) {
+    } else if (object_is_tree(object)) {
         member(w, &state, "children");
         write_objects(w, object->shape.children.items, object->shape.children.count);
+    }
+    if (object->clips.count > 0) {
+        member(w, &state, "clipped_by");
+        write_objects(w, object->clips.items, object->clips.count);
     }
     fputc('}', w->out);
 }

@@ -24,10 +24,6 @@ static Quality quality_of(int level) {
     };
 }
 
-static bool is_leaf(const Object *object) {
-    return object->type != OBJECT_UNION && object->type != OBJECT_MERGE;
-}
-
 static void prepare_objects(Shading *shading) {
     const Scene *scene = shading->scene;
     shading->objects = ARENA_ARRAY(shading->arena, ObjectInfo, scene->object_count);
@@ -39,7 +35,7 @@ static void prepare_objects(Shading *shading) {
         info->opaque = texture_is_opaque(scene, object->texture) &&
                        (object->interior_texture == NO_INDEX ||
                         texture_is_opaque(scene, object->interior_texture));
-        if (is_leaf(object) && !object->no_shadow && !info->opaque)
+        if (!object_is_tree(object) && !object->no_shadow && !info->opaque)
             shading->all_opaque = false;
     }
 }

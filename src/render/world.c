@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Rays and points in a World. A ray tries the primitives, then the patches up to the depth found;
-// at equal depth the lower rank counts. Hits of leaves in a merge are dropped when the point lies
-// inside another child of the merge.
+// at equal depth the lower rank counts. Hits of leaves in trees are judged by csg.c.
 #include "render/world_data.h"
 
 #include <assert.h>
@@ -10,84 +9,47 @@
 static const double PATCH_NEAREST = 1e-5;
 // ---- points ---------------------------------------------------------------------------------
 
-// Which primitives contain a point? Only those that the filter names are asked, or those of a span.
+// The leaves that contain a point.
 typedef struct {
     const World *world;
     Vec3 p;
-    uint32_t filter; // NO_INDEX: the span
-    Span span;
-    uint32_t *found; // positions, ascending; NULL: end at the first
+    uint32_t *found; // positions, ascending
     uint32_t count, max;
 } PointQuery;
 
-static bool within(uint32_t position, uint32_t first, uint32_t end) {
-    return position >= first && position < end;
-}
-
-static bool asks_for(const PointQuery *query, uint32_t position) {
-    if (query->filter == NO_INDEX)
-        return within(position, query->span.first, query->span.end);
-    const Filter *filters = query->world->filters;
-    for (uint32_t f = query->filter; f != NO_INDEX; f = filters[f].outer)
-        if (within(position, filters[f].first, filters[f].end) &&
-            !within(position, filters[f].own_first, filters[f].own_end))
-            return true;
-    return false;
-}
-
-static bool query_prim(PointQuery *query, const Prim *prim) {
+static void query_prim(PointQuery *query, const Prim *prim) {
     uint32_t position = prim->leaf.position;
-    if (!asks_for(query, position))
-        return false;
-    if (!shape_inside(&prim->shape, query->p))
-        return false;
-    if (!query->found)
-        return true;
+    if (!shape_inside(&prim->shape, query->p) ||
+        !csg_fills(&query->world->csg, prim->leaf.node, query->p))
+        return;
     // Insert in order; the last one falls out when there is no room.
     uint32_t at = query->count;
     while (at > 0 && query->found[at - 1] > position)
         at--;
     if (at >= query->max)
-        return false;
+        return;
     if (query->count < query->max)
         query->count++;
     for (uint32_t i = query->count - 1; i > at; i--)
         query->found[i] = query->found[i - 1];
     query->found[at] = position;
-    return false;
 }
 
 static bool query_item(void *context, uint32_t place) {
     PointQuery *query = context;
     const Prim *prim = &query->world->prims[place];
-    return shape_inside_bounded(&prim->shape) && query_prim(query, prim);
-}
-
-static bool query_all(PointQuery *query) {
-    const World *world = query->world;
-    for (uint32_t i = 0; i < world->boundless_count; i++)
-        if (query_prim(query, &world->prims[world->boundless[i]]))
-            return true;
-    return bvh_walk_point(&world->tree, query->p, query_item, query);
-}
-
-static bool hidden(const World *world, const Leaf *leaf, Vec3 p) {
-    if (leaf->filter == NO_INDEX)
-        return false;
-    PointQuery query = {.world = world, .p = p, .filter = leaf->filter};
-    return query_all(&query);
+    if (shape_inside_bounded(&prim->shape))
+        query_prim(query, prim);
+    return false;
 }
 
 uint32_t world_containing(const World *world, Vec3 p, uint32_t *objects, uint32_t max) {
+    PointQuery query = {.world = world, .p = p, .found = objects, .max = max};
     if (max == 0)
         return 0;
-    PointQuery query = {.world = world,
-                        .p = p,
-                        .filter = NO_INDEX,
-                        .span = {0, world->leaf_count},
-                        .found = objects,
-                        .max = max};
-    query_all(&query);
+    for (uint32_t i = 0; i < world->boundless_count; i++)
+        query_prim(&query, &world->prims[world->boundless[i]]);
+    bvh_walk_point(&world->tree, p, query_item, &query);
     for (uint32_t i = 0; i < query.count; i++)
         objects[i] = world->leaves[objects[i]].object;
     return query.count;
@@ -95,8 +57,8 @@ uint32_t world_containing(const World *world, Vec3 p, uint32_t *objects, uint32_
 
 bool world_inside(const World *world, uint32_t object, Vec3 p) {
     assert(object < world->scene->object_count);
-    PointQuery query = {.world = world, .p = p, .filter = NO_INDEX, .span = world->spans[object]};
-    return query_all(&query);
+    uint32_t node = world->csg.of_object[object];
+    return node != NO_INDEX && csg_inside(&world->csg, node, p);
 }
 
 // ---- rays -----------------------------------------------------------------------------------
@@ -119,7 +81,8 @@ typedef struct {
 
 static bool counts(const RayQuery *query, double t, const Leaf *leaf) {
     return t >= query->t_min && (t < query->t || (t == query->t && leaf->rank < query->rank)) &&
-           !hidden(query->world, leaf, vec_madd(query->ray->org, t, query->ray->dir));
+           (!leaf->watched || csg_keeps(&query->world->csg, leaf->node,
+                                        vec_madd(query->ray->org, t, query->ray->dir)));
 }
 
 static void keep(RayQuery *query, double t, const Leaf *leaf) {

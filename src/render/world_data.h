@@ -4,6 +4,7 @@
 #define RENDER_WORLD_DATA_H
 
 #include "render/bvh.h"
+#include "render/csg.h"
 #include "render/world.h"
 #include "shape/shape.h"
 
@@ -11,34 +12,23 @@
 typedef struct {
     uint32_t object;
     uint32_t position;
-    uint32_t rank;   // which of two hits at the same depth counts: the lower
-    uint32_t mask;   // RayKind bits of the rays that see it
-    uint32_t filter; // index in filters, or NO_INDEX
+    uint32_t rank; // which of two hits at the same depth counts: the lower
+    uint32_t mask; // RayKind bits of the rays that see it
+    uint32_t node; // in the Csg; NO_INDEX: an unhidden patch
+    bool watched;  // its hits may be hidden
 } Leaf;
-
-// For the leaves of one child of a merge: all leaves of the merge but those of that child hide
-// hits. outer: the same for the merge around, or NO_INDEX.
-typedef struct {
-    uint32_t first, end, own_first, own_end, outer;
-} Filter;
 
 typedef struct {
     Shape shape;
     Leaf leaf;
 } Prim;
 
-typedef struct {
-    uint32_t first, end; // leaves below an object
-} Span;
-
 struct World {
     Arena *arena;
     const Scene *scene;
     Leaf *leaves;
     uint32_t leaf_count;
-    Span *spans; // of every object
-    Filter *filters;
-    uint32_t filter_count;
+    Csg csg;
     // In the tree's leaf order, then those that are in no box.
     Prim *prims;
     uint32_t tree_count, prim_count;
@@ -47,7 +37,7 @@ struct World {
     uint32_t *boundless;
     uint32_t boundless_count;
     PatchSet *patches;  // that nothing hides; id: leaf position
-    PatchSet *filtered; // in merges with something solid beside them
+    PatchSet *filtered; // below a tree that may hide their hits
 };
 
 #endif

@@ -42,6 +42,7 @@ Shape shape_prepare(const Object *object, Arena *arena) {
         break;
     case OBJECT_UNION:
     case OBJECT_MERGE:
+    case OBJECT_INTERSECTION:
     case OBJECT_PATCH:
         break;
     }

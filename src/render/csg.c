@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: MIT
+// Nodes of the trees and their boxes, then the three questions about a point. Boxes only save work:
+// inside ones skip what cannot contain a point, reaches keep the tree of boxes of the World small.
+#include "render/csg.h"
+
+#include "base/array.h"
+#include "base/diag.h"
+
+// Below this nothing that walks the trees recursively can overflow its stack.
+enum { MAX_NESTING = 200 };
+
+static const Box EVERYWHERE = {{-INFINITY, -INFINITY, -INFINITY}, {INFINITY, INFINITY, INFINITY}};
+
+static Box box_common(Box a, Box b) {
+    return (Box){vec_max(a.low, b.low), vec_min(a.high, b.high)};
+}
+
+static bool box_has(const Box *box, Vec3 p) {
+    return p.x >= box->low.x && p.x <= box->high.x && p.y >= box->low.y && p.y <= box->high.y &&
+           p.z >= box->low.z && p.z <= box->high.z;
+}
+
+// Inside tests have a slack of SHAPE_EPSILON in units of the primitive, and points are rounded. A
+// millionth of the box's size and place is above both, and still costs no tests worth counting.
+static Box widened(Box box) {
+    if (!(box.low.x <= box.high.x))
+        return box;
+    double size = fmax(vec_length(box.low), vec_length(box.high));
+    if (!isfinite(size))
+        return box;
+    double by = 1e-6 * size;
+    return (Box){vec_sub(box.low, vec3(by, by, by)), vec_add(box.high, vec3(by, by, by))};
+}
+
+// ---- building -------------------------------------------------------------------------------
+
+typedef struct {
+    const Scene *scene;
+    Arena *arena;
+    uint32_t *of_object;
+    ARRAY(CsgNode) nodes;
+} Maker;
+
+// Returns the node; NO_INDEX: no object there that needs one. Until narrow_reaches a node's reach
+// is the box of its own surface.
+static uint32_t make_node(Maker *maker, uint32_t index, uint32_t parent, bool framed, int depth);
+
+static Box patch_box(const PatchShape *patch) {
+    Box box = box_empty();
+    for (uint32_t i = 0; i < (patch->degree_u + 1) * (patch->degree_v + 1); i++)
+        box = box_extend(box, patch->points[i]);
+    return widened(box);
+}
+
+static void make_leaf(Maker *maker, CsgNode *node) {
+    node->inside = box_empty();
+    if (node->object->type == OBJECT_PATCH) {
+        node->reach = patch_box(&node->object->shape.patch);
+        return;
+    }
+    Shape *shape = ARENA_NEW(maker->arena, Shape);
+    *shape = shape_prepare(node->object, maker->arena);
+    node->shape = shape;
+    node->solid = shape_has_inside(shape);
+    node->reach = widened(shape_bounds(shape));
+    if (node->solid)
+        node->inside = shape_inside_bounded(shape) ? node->reach : EVERYWHERE;
+}
+
+// A list of objects below `parent`, linked in order; returns the first.
+static uint32_t make_list(Maker *maker, const ObjectList *list, uint32_t parent, bool framed,
+                          int depth) {
+    uint32_t first = NO_INDEX, last = NO_INDEX;
+    for (uint32_t i = 0; i < list->count; i++) {
+        uint32_t node = make_node(maker, list->items[i], parent, framed, depth);
+        if (node == NO_INDEX)
+            continue;
+        if (last == NO_INDEX)
+            first = node;
+        else
+            maker->nodes.items[last].next = node;
+        last = node;
+    }
+    return first;
+}
+
+// What all children together contain, and where their surfaces are. The surface of an intersection
+// lies within each child, or on it.
+static void join_children(const Maker *maker, CsgNode *node) {
+    bool all = node->object->type == OBJECT_INTERSECTION;
+    node->inside = node->reach = all ? EVERYWHERE : box_empty();
+    for (uint32_t c = node->first; c != NO_INDEX; c = maker->nodes.items[c].next) {
+        const CsgNode *child = &maker->nodes.items[c];
+        Box whole = box_union(child->reach, child->inside);
+        node->reach = all ? box_common(node->reach, whole) : box_union(node->reach, child->reach);
+        node->inside =
+            all ? box_common(node->inside, child->inside) : box_union(node->inside, child->inside);
+        node->child_count++;
+        node->solid_count += child->solid;
+    }
+    node->solid = node->solid_count > 0 && (!all || node->solid_count == node->child_count);
+}
+
+static void apply_clips(const Maker *maker, CsgNode *node) {
+    for (uint32_t c = node->first_clip; c != NO_INDEX; c = maker->nodes.items[c].next) {
+        const CsgNode *clip = &maker->nodes.items[c];
+        node->inside = box_common(node->inside, clip->inside);
+        node->reach = box_common(node->reach, clip->inside);
+        node->solid = node->solid && clip->solid;
+    }
+}
+
+// framed: something around may hide hits.
+static uint32_t make_node(Maker *maker, uint32_t index, uint32_t parent, bool framed, int depth) {
+    const Object *object = &maker->scene->objects[index];
+    if (depth > MAX_NESTING)
+        die("objects[%u]: more than %d unions, merges and intersections inside each other", index,
+            MAX_NESTING);
+    maker->of_object[index] = NO_INDEX;
+    if (object->type == OBJECT_PATCH && !framed)
+        return NO_INDEX;
+    uint32_t at = (uint32_t)maker->nodes.count;
+    CsgNode node = {.object = object,
+                    .parent = parent,
+                    .next = NO_INDEX,
+                    .first = NO_INDEX,
+                    .first_clip = NO_INDEX};
+    array_push(&maker->nodes, node); // keeps the place: children come behind
+    maker->of_object[index] = at;
+    node.first_clip = make_list(maker, &object->clips, NO_INDEX, true, depth + 1);
+    if (object_is_tree(object)) {
+        bool hides = framed || object->type != OBJECT_UNION || object->clips.count > 0;
+        node.first = make_list(maker, &object->shape.children, at, hides, depth + 1);
+        join_children(maker, &node);
+    } else {
+        make_leaf(maker, &node);
+    }
+    apply_clips(maker, &node);
+    maker->nodes.items[at] = node;
+    return at;
+}
+
+// A leaf is seen where it is and each tree around it may be. Parents stand before their children.
+static void narrow_reaches(Csg *csg) {
+    for (uint32_t n = 0; n < csg->count; n++) {
+        CsgNode *node = &csg->nodes[n];
+        if (node->parent != NO_INDEX)
+            node->reach = box_common(node->reach, csg->nodes[node->parent].reach);
+    }
+}
+
+Csg csg_create(const Scene *scene, Arena *arena) {
+    Maker maker = {.scene = scene,
+                   .arena = arena,
+                   .of_object = ARENA_ARRAY(arena, uint32_t, scene->object_count)};
+    for (uint32_t i = 0; i < scene->root_count; i++)
+        make_node(&maker, scene->roots[i], NO_INDEX, false, 0);
+    Csg csg = {.count = (uint32_t)maker.nodes.count, .of_object = maker.of_object};
+    csg.nodes = arena_copy(arena, maker.nodes.items, csg.count * sizeof(CsgNode));
+    array_free(&maker.nodes);
+    narrow_reaches(&csg);
+    return csg;
+}
+
+// ---- points ---------------------------------------------------------------------------------
+
+static bool inside_clips(const Csg *csg, const CsgNode *node, Vec3 p) {
+    for (uint32_t c = node->first_clip; c != NO_INDEX; c = csg->nodes[c].next)
+        if (!csg_inside(csg, c, p))
+            return false;
+    return true;
+}
+
+bool csg_inside(const Csg *csg, uint32_t index, Vec3 p) {
+    const CsgNode *node = &csg->nodes[index];
+    if (!node->solid || !box_has(&node->inside, p) || !inside_clips(csg, node, p))
+        return false;
+    if (node->shape)
+        return shape_inside(node->shape, p);
+    bool all = node->object->type == OBJECT_INTERSECTION;
+    for (uint32_t c = node->first; c != NO_INDEX; c = csg->nodes[c].next)
+        if (csg_inside(csg, c, p) != all)
+            return !all;
+    return all;
+}
+
+// Is p inside all children, or none, but `own`?
+static bool others(const Csg *csg, const CsgNode *tree, uint32_t own, Vec3 p, bool inside) {
+    for (uint32_t c = tree->first; c != NO_INDEX; c = csg->nodes[c].next)
+        if (c != own && csg_inside(csg, c, p) != inside)
+            return false;
+    return true;
+}
+
+bool csg_keeps(const Csg *csg, uint32_t index, Vec3 p) {
+    if (!inside_clips(csg, &csg->nodes[index], p))
+        return false;
+    uint32_t own = index;
+    for (uint32_t t = csg->nodes[index].parent; t != NO_INDEX; own = t, t = csg->nodes[t].parent) {
+        const CsgNode *tree = &csg->nodes[t];
+        ObjectType type = tree->object->type;
+        if (type != OBJECT_UNION && !others(csg, tree, own, p, type == OBJECT_INTERSECTION))
+            return false;
+        if (!inside_clips(csg, tree, p))
+            return false;
+    }
+    return true;
+}
+
+bool csg_fills(const Csg *csg, uint32_t index, Vec3 p) {
+    if (!csg_inside(csg, index, p))
+        return false;
+    uint32_t own = index;
+    for (uint32_t t = csg->nodes[index].parent; t != NO_INDEX; own = t, t = csg->nodes[t].parent) {
+        const CsgNode *tree = &csg->nodes[t];
+        if (tree->object->type == OBJECT_INTERSECTION && !others(csg, tree, own, p, true))
+            return false;
+        if (!inside_clips(csg, tree, p))
+            return false;
+    }
+    return true;
+}
+
+bool csg_is_watched(const Csg *csg, uint32_t index) {
+    const CsgNode *own = &csg->nodes[index];
+    if (own->first_clip != NO_INDEX)
+        return true;
+    for (uint32_t t = own->parent; t != NO_INDEX; own = &csg->nodes[t], t = own->parent) {
+        const CsgNode *tree = &csg->nodes[t];
+        bool judges =
+            tree->object->type == OBJECT_INTERSECTION
+                ? tree->child_count > 1
+                : tree->object->type == OBJECT_MERGE && tree->solid_count > (own->solid ? 1 : 0);
+        if (judges || tree->first_clip != NO_INDEX)
+            return true;
+    }
+    return false;
+}

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+// The scene's trees of unions, merges and intersections, as far as they decide which points count
+// (facts: rendering 8). A hit of a leaf lies on the surface of the whole tree when each tree around
+// it lets its point through: a merge where no other child of it contains the point, an intersection
+// where all others do, a clipped object where all its clips do. So no list of hits is needed:
+// every hit is judged on its own, by its point.
+#ifndef RENDER_CSG_H
+#define RENDER_CSG_H
+
+#include "base/arena.h"
+#include "model/scene.h"
+#include "shape/shape.h"
+
+typedef struct {
+    const Object *object;
+    const Shape *shape; // leaves, but patches
+    uint32_t parent;    // this and the next three: nodes or NO_INDEX
+    uint32_t next;      // sibling, also in a list of clips
+    uint32_t first, first_clip;
+    uint32_t child_count, solid_count;
+    bool solid; // some point may be inside
+    Box inside; // holds all that are
+    Box reach;  // holds the surface as far as the trees around let it be seen
+} CsgNode;
+
+typedef struct {
+    CsgNode *nodes;
+    uint32_t count;
+    uint32_t *of_object; // node of each object; NO_INDEX: a patch that no tree can hide
+} Csg;
+
+// Everything in arena. Dies when trees are nested too deeply.
+Csg csg_create(const Scene *scene, Arena *arena);
+// Is there anything that could hide hits of this leaf?
+bool csg_is_watched(const Csg *csg, uint32_t node);
+// Does a hit of the leaf at p count?
+bool csg_keeps(const Csg *csg, uint32_t node, Vec3 p);
+bool csg_inside(const Csg *csg, uint32_t node, Vec3 p);
+// Is p inside the leaf where the trees around let its inside be?
+bool csg_fills(const Csg *csg, uint32_t node, Vec3 p);
+
+#endif

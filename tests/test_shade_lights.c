@@ -85,8 +85,9 @@ static void area_illumination(void **state) {
 }
 
 // The mean over the floor of a hard shadow's soft edge does not depend on where the jitter puts the
-// points. Each of the 30 x 20 pixels averages 16 of them: the mean of a share of light p in 0..1
-// varies by at most 0.5 / sqrt(30 x 20 x 16) = 0.005, jitter by cells less; 4 times that is
+// points; only with jitter do neighbours along the edge differ by more than the slant of the light
+// does (below 1e-3). Each of the 30 x 20 pixels averages 16 of them: the mean of a share of light p
+// in 0..1 varies by at most 0.5 / sqrt(30 x 20 x 16) = 0.005, jitter by cells less; 4 times that is
 // allowed.
 static void jitter_keeps_the_mean(void **state) {
     (void)state;
@@ -94,7 +95,7 @@ static void jitter_keeps_the_mean(void **state) {
     for (int jitter = 0; jitter < 2; jitter++) {
         char text[1024];
         snprintf(text, sizeof text,
-                 "camera { orthographic location <0, 5, 0> look_at 0 right 1.5*x up z }\n"
+                 "camera { orthographic location <0, 5, 0> look_at 0 sky z right 1.5*x up z }\n"
                  "plane { y, 0 pigment { rgb 1 } finish { ambient 0 diffuse 1 } }\n"
                  "box { <-9, 1, -9>, <0, 1.1, 9> no_image pigment { rgb 1 } }\n"
                  "light_source { 100*y, rgb 1 area_light 100*x, 100*z, 4, 4 %s }\n",
@@ -104,7 +105,7 @@ static void jitter_keeps_the_mean(void **state) {
         int different = 0;
         for (int i = 0; i < 30 * 20; i++) {
             mean[jitter] += pixels[i].g / (30 * 20);
-            different += pixels[i].g != pixels[(i + 30) % (30 * 20)].g;
+            different += fabsf(pixels[i].g - pixels[(i + 30) % (30 * 20)].g) > 0.01f;
         }
         assert_true(jitter ? different > 100 : different == 0);
         fixture_destroy(f);

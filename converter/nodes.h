@@ -241,7 +241,7 @@ struct ObjectNode {
     ObjectNode *bounds, *clips;
     const Loc *bound_loc, *clip_loc;
     const Loc *cutaway; // of cutaway_textures
-    Box box; // of a CSG, as extent.c keeps it
+    Box box;            // of a CSG, as extent.c keeps it
     bool has_box;
     LightNode *light;
     const Loc *loc; // of the statement, if it is not modelled

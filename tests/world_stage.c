@@ -63,9 +63,7 @@ void stage_end(Stage *stage) {
     arena_destroy(stage->arena);
 }
 
-bool stage_is_group(const Object *object) {
-    return object_is_tree(object);
-}
+bool stage_is_group(const Object *object) { return object_is_tree(object); }
 
 Object stage_sphere(Vec3 center, double radius) {
     return (Object){.type = OBJECT_SPHERE, .shape.sphere = {center, radius}};

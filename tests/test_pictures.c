@@ -35,6 +35,7 @@ static const Row ROWS[] = {
     {"cephalopov", CORPUS "cephalopov/bicubicpatch_basic.pov", 0, 0},
     {"dealii", CORPUS "dealii/cont243bic.pov", 0, 0},
     {"postit", CORPUS "postit/postit.pov", 0, 0},
+    {"eaglemode", CORPUS "eaglemode/Splitter.pov", 0, 0},
     {"teapot-matte", "scenes/teapot-matte/teapot-matte.pov", 2, 0},
     {"teapot-chrome", "scenes/teapot-chrome/teapot-chrome.pov", 2, 0},
     {"teapot-glass", "scenes/teapot-glass/teapot-glass.pov", 2, 0},

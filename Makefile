@@ -8,7 +8,7 @@ MAKEFLAGS += --no-builtin-rules
 .SECONDARY:
 
 PACKAGES = gcc g++ pkg-config povray povray-includes povray-examples libopenimageio-dev \
-           openimageio-tools libcmocka-dev libjansson-dev
+           openimageio-tools libpng-dev libcmocka-dev libjansson-dev
 LINT_PACKAGES = clang-format clang-tidy cppcheck
 
 CC  ?= gcc
@@ -26,20 +26,23 @@ CFLAGS   ?= -O3 -g -DNDEBUG
 SAN      = -O1 -g -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=undefined -DHOSTILE
 C11    = -std=c11 $(CWARN) $(BASE)
 CXX17  = -std=c++17 $(WARN) $(BASE)
-LIBS   = -lOpenImageIO -lOpenImageIO_Util -ljansson -lm -lstdc++
+LIBS   = -lpng -ljansson -lm
+# OpenImageIO is loaded when it is needed (src/image/oiio.h).
+IMAGE_LIBS = -lOpenImageIO -lOpenImageIO_Util
 
 MAINS    = converter/main.c $(wildcard src/cmd/*.c)
 LIB_C    = $(filter-out $(MAINS),$(wildcard converter/*.c src/*/*.c))
-LIB_CXX  = $(wildcard src/*/*.cpp)
+LIB_CXX  = src/image/image_oiio.cpp
 PROGRAMS = pov2qi $(patsubst src/cmd/%.c,%,$(wildcard src/cmd/*.c))
 TESTS    = $(patsubst tests/%.c,%,$(wildcard tests/test_*.c))
 TEST_LIB = $(filter-out $(wildcard tests/test_*.c),$(wildcard tests/*.c))
 
-OBJ      = $(LIB_C:%.c=build/%.o) $(LIB_CXX:%.cpp=build/%.o)
-TEST_OBJ = $(LIB_C:%.c=build/test/%.o) $(LIB_CXX:%.cpp=build/test/%.o)
+OBJ      = $(LIB_C:%.c=build/%.o)
+TEST_OBJ = $(LIB_C:%.c=build/test/%.o)
+IMAGE_LIB = libqipov_image.so
 SHARED   = build/test/libtests.a
 
-all: $(PROGRAMS:%=build/%)
+all: $(PROGRAMS:%=build/%) build/$(IMAGE_LIB)
 
 build/%.o: %.c
 	@mkdir -p $(@D)
@@ -48,7 +51,7 @@ build/%.o: %.c
 build/%.o: %.cpp
 	@mkdir -p $(@D)
 	@echo '  CXX $<'
-	@$(CXX) $(CXX17) $(CFLAGS) -c -o $@ $<
+	@$(CXX) $(CXX17) $(CFLAGS) -fPIC -c -o $@ $<
 build/test/%.o: %.c
 	@mkdir -p $(@D)
 	@echo '  CC  $< (sanitized)'
@@ -56,8 +59,14 @@ build/test/%.o: %.c
 build/test/%.o: %.cpp
 	@mkdir -p $(@D)
 	@echo '  CXX $< (sanitized)'
-	@$(CXX) $(CXX17) $(SAN) -c -o $@ $<
+	@$(CXX) $(CXX17) $(SAN) -fPIC -c -o $@ $<
 
+build/$(IMAGE_LIB): $(LIB_CXX:%.cpp=build/%.o)
+	@echo '  LD  $@'
+	@$(CXX) -shared -o $@ $^ $(IMAGE_LIBS)
+build/test/$(IMAGE_LIB): $(LIB_CXX:%.cpp=build/test/%.o)
+	@echo '  LD  $@'
+	@$(CXX) -shared -fsanitize=address,undefined -o $@ $^ $(IMAGE_LIBS)
 build/pov2qi: build/converter/main.o $(OBJ)
 	@echo '  LD  $@'
 	@$(CC) -fopenmp -o $@ $^ $(LIBS)
@@ -66,13 +75,13 @@ build/qi%: build/src/cmd/qi%.o $(OBJ)
 	@$(CC) -fopenmp -o $@ $^ $(LIBS)
 
 # The programs under the sanitizers, for tests that run them; and the cmocka programs.
-build/test/pov2qi: build/test/converter/main.o $(TEST_OBJ)
+build/test/pov2qi: build/test/converter/main.o $(TEST_OBJ) | build/test/$(IMAGE_LIB)
 	@echo '  LD  $@'
 	@$(CC) -fopenmp -fsanitize=address,undefined -o $@ $^ $(LIBS)
-build/test/qi%: build/test/src/cmd/qi%.o $(TEST_OBJ)
+build/test/qi%: build/test/src/cmd/qi%.o $(TEST_OBJ) | build/test/$(IMAGE_LIB)
 	@echo '  LD  $@'
 	@$(CC) -fopenmp -fsanitize=address,undefined -o $@ $^ $(LIBS)
-build/test/test_%: build/test/tests/test_%.o $(TEST_OBJ) $(SHARED)
+build/test/test_%: build/test/tests/test_%.o $(TEST_OBJ) $(SHARED) | build/test/$(IMAGE_LIB)
 	@echo '  LD  $@'
 	@$(CC) -fopenmp -fsanitize=address,undefined -o $@ $^ -lcmocka $(LIBS)
 $(SHARED): $(TEST_LIB:%.c=build/test/%.o)
@@ -83,7 +92,7 @@ deps:
 	@tests/deps.sh $(PACKAGES)
 
 test: deps
-	@$(MAKE) --no-print-directory -j$$(nproc) all $(PROGRAMS:%=build/test/%) $(TESTS:%=build/test/%)
+	@$(MAKE) --no-print-directory -j$$(nproc) all build/test/$(IMAGE_LIB) $(PROGRAMS:%=build/test/%) $(TESTS:%=build/test/%)
 	@tests/run.sh $(TESTS)
 
 lint:

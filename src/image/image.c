@@ -7,6 +7,8 @@
 #include "base/diag.h"
 #include "base/file.h"
 #include "image/oiio.h"
+#include "image/png.h"
+#include "image/stored.h"
 
 #include <errno.h>
 #include <math.h>
@@ -42,17 +44,6 @@ ImageWriteOptions image_write_options_default(void) {
     return (ImageWriteOptions){.format = IMAGE_PNG, .bits = 8, .gamma = 2.2, .srgb = true};
 }
 
-unsigned image_stored(float value, int bits, int stored) {
-    float clipped = value > 0.0f ? (value < 1.0f ? value : 1.0f) : 0.0f;
-    unsigned k = (unsigned)lroundf(clipped * (float)((1u << bits) - 1u));
-    if (bits >= stored)
-        return k >> (bits - stored);
-    unsigned out = 0;
-    for (int place = stored - bits; place > -bits; place -= bits)
-        out |= place >= 0 ? k << place : k >> -place;
-    return out & ((1u << stored) - 1u);
-}
-
 // Portable pixmap, or greymap: a line of text, then bytes, the high one first.
 static bool write_ppm(const Image *image, const ImageWriteOptions *options, FILE *out) {
     int stored = options->bits > 8 ? 16 : 8, shown = image->channels >= 3 ? 3 : 1;
@@ -74,8 +65,14 @@ static bool write_ppm(const Image *image, const ImageWriteOptions *options, FILE
 static bool encode(const Image *image, const ImageWriteOptions *options, FILE *out,
                    char why[OIIO_WHY]) {
     why[0] = '\0';
-    return options->format == IMAGE_PPM ? write_ppm(image, options, out)
-                                        : oiio_encode(image, options, out, why);
+    switch (options->format) {
+    case IMAGE_PNG:
+        return png_encode(image, options, out, why);
+    case IMAGE_PPM:
+        return write_ppm(image, options, out);
+    default:
+        return oiio_library()->encode(image, options, out, why);
+    }
 }
 
 void image_write(const char *path, const Image *image, const ImageWriteOptions *options) {
@@ -106,11 +103,11 @@ Image *image_read(Arena *arena, const char *path) {
     if (!file_exists(path))
         die("cannot read '%s': no such file, or not readable", path);
     int width, height, channels, bits;
-    OiioReader *reader = oiio_open(path, &width, &height, &channels, &bits, why);
+    OiioReader *reader = oiio_library()->open(path, &width, &height, &channels, &bits, why);
     if (!reader)
         die("cannot read '%s': %s", path, why);
     if (width < 1 || height < 1 || channels < 1 || (double)width * height > MOST_PIXELS) {
-        oiio_close(reader);
+        oiio_library()->close(reader);
         die("cannot read '%s': %d x %d pixels, %d channels", path, width, height, channels);
     }
     Image *image = ARENA_NEW(arena, Image);
@@ -118,7 +115,7 @@ Image *image_read(Arena *arena, const char *path) {
         .width = width, .height = height, .channels = channels < 4 ? channels : 4, .bits = bits};
     image->pixels =
         ARENA_ARRAY(arena, float, (size_t)width *(size_t)height *(size_t)image->channels);
-    if (!oiio_read(reader, image->channels, image->pixels, why))
+    if (!oiio_library()->read(reader, image->channels, image->pixels, why))
         die("cannot read '%s': %s", path, why);
     return image;
 }
@@ -191,7 +188,7 @@ ImageDifference image_compare(const Image *a, const Image *b, double fail, doubl
     make_alike(scratch, a, b, &one, &two);
     ImageDifference result = {.pixels = (uint64_t)a->width * (uint64_t)a->height};
     char why[OIIO_WHY];
-    bool ok = oiio_compare(&one, &two, fail, warn, &result, why);
+    bool ok = oiio_library()->compare(&one, &two, fail, warn, &result, why);
 
     // One step of 8 bits is 1/255; values read from files carry the rounding of a float.
     const float step = 1.0f / 255.0f * (1.0f + 1e-4f);
@@ -209,7 +206,7 @@ Image *image_false_color(Arena *arena, const Image *values) {
     *colors = (Image){.width = values->width, .height = values->height, .channels = 3, .bits = 32};
     colors->pixels = ARENA_ARRAY(arena, float, (size_t)values->width *(size_t)values->height * 3);
     char why[OIIO_WHY];
-    if (!oiio_false_color(values, colors, why))
+    if (!oiio_library()->false_color(values, colors, why))
         die("cannot colour the differences: %s", why);
     return colors;
 }
@@ -220,7 +217,7 @@ unsigned char *image_encode_png(Arena *arena, const Image *image, size_t *size) 
     if (!out)
         die("out of memory");
     const ImageWriteOptions options = image_write_options_default();
-    bool ok = oiio_encode(image, &options, out, why);
+    bool ok = png_encode(image, &options, out, why);
     ok = fclose(out) == 0 && ok;
     unsigned char *copy = ok ? arena_copy(arena, bytes, *size) : NULL;
     array_release(bytes);

@@ -3,6 +3,8 @@
 // sees every error of the disk, and standard output works for all formats.
 #include "image/oiio.h"
 
+#include "image/stored.h"
+
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imagebuf.h>
 #include <OpenImageIO/imagebufalgo.h>
@@ -20,8 +22,8 @@ struct OiioReader {
 
 namespace {
 
-// ORDER image_format (PPM is written by image.c: the library's writer knows 8 bits only)
-const char *const plugins[] = {"png", "targa", "pnm", "bmp", "jpeg", "openexr", "hdr", "tiff"};
+// ORDER image_format (PNG and PPM are not written here)
+const char *const plugins[] = {"", "targa", "", "bmp", "jpeg", "openexr", "hdr", "tiff"};
 
 void explain(char why[OIIO_WHY], const std::string &text) {
     std::string line = text.empty() ? std::string("unknown error") : text;
@@ -36,7 +38,7 @@ OIIO::TypeDesc file_type(const ImageWriteOptions &options) {
         return OIIO::TypeHalf;
     if (options.format == IMAGE_HDR)
         return OIIO::TypeFloat;
-    bool deep = options.bits > 8 && (options.format == IMAGE_PNG || options.format == IMAGE_TIFF);
+    bool deep = options.bits > 8 && options.format == IMAGE_TIFF;
     return deep ? OIIO::TypeUInt16 : OIIO::TypeUInt8;
 }
 
@@ -122,10 +124,8 @@ OIIO::ImageBuf wrap(const Image &image) {
         OIIO::ImageSpec(image.width, image.height, image.channels, OIIO::TypeFloat), image.pixels);
 }
 
-} // namespace
-
-bool oiio_encode(const Image *image, const ImageWriteOptions *options, FILE *out,
-                 char why[OIIO_WHY]) noexcept {
+bool encode_to(const Image *image, const ImageWriteOptions *options, FILE *out,
+               char why[OIIO_WHY]) noexcept {
     why[0] = '\0';
     try {
         std::vector<unsigned char> bytes;
@@ -141,8 +141,8 @@ bool oiio_encode(const Image *image, const ImageWriteOptions *options, FILE *out
     }
 }
 
-OiioReader *oiio_open(const char *path, int *width, int *height, int *channels, int *bits,
-                      char why[OIIO_WHY]) noexcept {
+OiioReader *open_reader(const char *path, int *width, int *height, int *channels, int *bits,
+                        char why[OIIO_WHY]) noexcept {
     try {
         OIIO::ImageSpec hints;
         hints.attribute("oiio:UnassociatedAlpha", 1);
@@ -163,7 +163,7 @@ OiioReader *oiio_open(const char *path, int *width, int *height, int *channels, 
     }
 }
 
-bool oiio_read(OiioReader *reader, int channels, float *pixels, char why[OIIO_WHY]) noexcept {
+bool read_pixels(OiioReader *reader, int channels, float *pixels, char why[OIIO_WHY]) noexcept {
     std::unique_ptr<OiioReader> owner(reader);
     try {
         if (owner->input->read_image(0, 0, 0, channels, OIIO::TypeFloat, pixels))
@@ -175,10 +175,10 @@ bool oiio_read(OiioReader *reader, int channels, float *pixels, char why[OIIO_WH
     return false;
 }
 
-void oiio_close(OiioReader *reader) noexcept { delete reader; }
+void close_reader(OiioReader *reader) noexcept { delete reader; }
 
-bool oiio_compare(const Image *a, const Image *b, double fail, double warn, ImageDifference *result,
-                  char why[OIIO_WHY]) noexcept {
+bool compare_images(const Image *a, const Image *b, double fail, double warn,
+                    ImageDifference *result, char why[OIIO_WHY]) noexcept {
     try {
         const OIIO::ImageBuf one = wrap(*a), two = wrap(*b);
         OIIO::ImageBufAlgo::CompareResults found = OIIO::ImageBufAlgo::compare(
@@ -204,7 +204,7 @@ bool oiio_compare(const Image *a, const Image *b, double fail, double warn, Imag
     }
 }
 
-bool oiio_false_color(const Image *values, Image *colors, char why[OIIO_WHY]) noexcept {
+bool color_values(const Image *values, Image *colors, char why[OIIO_WHY]) noexcept {
     try {
         OIIO::ImageBuf in = wrap(*values), out = wrap(*colors);
         if (OIIO::ImageBufAlgo::color_map(out, in, 0, "inferno"))
@@ -215,3 +215,8 @@ bool oiio_false_color(const Image *values, Image *colors, char why[OIIO_WHY]) no
     }
     return false;
 }
+
+} // namespace
+
+const OiioTable oiio_table = {encode_to,    open_reader,    read_pixels,
+                              close_reader, compare_images, color_values};

@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: MIT
 // What image.c needs of OpenImageIO, in C terms. Nothing here ends the program: failure is false
 // and a reason in `why`, so that no C++ object is ever jumped over.
+//
+// OpenImageIO and what it links to are some 250 libraries, and the linker needs 0.25 s to bring
+// them in: as long as many a picture takes. So image_oiio.cpp is a library of its own, loaded by
+// oiio_library.c when something is first read, compared or written in a format other than PNG and
+// PPM.
 #ifndef IMAGE_OIIO_H
 #define IMAGE_OIIO_H
 
@@ -17,31 +22,36 @@ extern "C" {
 
 enum { OIIO_WHY = 256 };
 
-// The stored value, in `stored` bits, of k / (2^bits - 1): its bits from the top, repeated
-// downwards. Clipped to 0..1; NaN is 0. (image.c)
-unsigned image_stored(float value, int bits, int stored) OIIO_BORDER;
-
-// Encodes the picture in memory and writes the bytes to out. False also when out does not take
-// them; then errno says why and `why` is empty.
-bool oiio_encode(const Image *image, const ImageWriteOptions *options, FILE *out,
-                 char why[OIIO_WHY]) OIIO_BORDER;
-
 // A picture being read: the header first, so that the caller can make room.
 typedef struct OiioReader OiioReader;
-OiioReader *oiio_open(const char *path, int *width, int *height, int *channels, int *bits,
-                      char why[OIIO_WHY]) OIIO_BORDER; // NULL: why says
-// The first `channels` channels of every pixel, then closes in any case.
-bool oiio_read(OiioReader *reader, int channels, float *pixels, char why[OIIO_WHY]) OIIO_BORDER;
-void oiio_close(OiioReader *reader) OIIO_BORDER;
 
-// Fills all but `different`. The pictures have the same size and number of channels.
-bool oiio_compare(const Image *a, const Image *b, double fail, double warn, ImageDifference *result,
-                  char why[OIIO_WHY]) OIIO_BORDER;
-// One channel of values to three of colour.
-bool oiio_false_color(const Image *values, Image *colors, char why[OIIO_WHY]) OIIO_BORDER;
+typedef struct {
+    // Encodes the picture in memory and writes the bytes to out. False also when out does not take
+    // them; then errno says why and `why` is empty.
+    bool (*encode)(const Image *image, const ImageWriteOptions *options, FILE *out,
+                   char why[OIIO_WHY]) OIIO_BORDER;
+
+    OiioReader *(*open)(const char *path, int *width, int *height, int *channels, int *bits,
+                        char why[OIIO_WHY])OIIO_BORDER; // NULL: why says
+    // The first `channels` channels of every pixel, then closes in any case.
+    bool (*read)(OiioReader *reader, int channels, float *pixels, char why[OIIO_WHY]) OIIO_BORDER;
+    void (*close)(OiioReader *reader) OIIO_BORDER;
+
+    // Fills all but `different`. The pictures have the same size and number of channels.
+    bool (*compare)(const Image *a, const Image *b, double fail, double warn,
+                    ImageDifference *result, char why[OIIO_WHY]) OIIO_BORDER;
+    // One channel of values to three of colour.
+    bool (*false_color)(const Image *values, Image *colors, char why[OIIO_WHY]) OIIO_BORDER;
+} OiioTable;
+
+extern const OiioTable oiio_table; // in the library
+#define OIIO_TABLE_NAME "oiio_table"
 
 #ifdef __cplusplus
 }
+#else
+// Loads the library at the first call; dies when it cannot be had. Any thread.
+const OiioTable *oiio_library(void);
 #endif
 
 #endif

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The tables of scene_fields.h, struct by struct in the order of scene.h. The order of the fields
 // is the order in the file.
-#include "model/scene_fields.h"
+#include "model/field_macros.h"
+#include "model/texture_fields.h"
 
 #include <string.h>
 
@@ -11,36 +12,6 @@ _Static_assert(sizeof(Rgb) == 3 * sizeof(float), "colours are plain rows of floa
 _Static_assert(sizeof(Color) == 5 * sizeof(float), "colours are plain rows of floats");
 _Static_assert(sizeof(ObjectType) == sizeof(int) && sizeof(WaveType) == sizeof(int),
                "enumerations are read and written as int");
-
-// One line of a table: the struct, its member, what it is called in the file.
-#define AT(Struct, member) .offset = offsetof(Struct, member)
-#define BOOL(Struct, member, text)                                                                 \
-    { .name = text, .type = FIELD_BOOL, AT(Struct, member) }
-#define INT(Struct, member, text)                                                                  \
-    { .name = text, .type = FIELD_INT, AT(Struct, member) }
-#define FLOAT(Struct, member, text)                                                                \
-    { .name = text, .type = FIELD_FLOAT, AT(Struct, member) }
-#define INDEX(Struct, member, text)                                                                \
-    { .name = text, .type = FIELD_INDEX, AT(Struct, member) }
-#define ENUM(Struct, member, text, list)                                                           \
-    { .name = text, .type = FIELD_ENUM, AT(Struct, member), .names = list }
-#define RGB(Struct, member, text)                                                                  \
-    { .name = text, .type = FIELD_FLOATS, AT(Struct, member), .columns = 3 }
-#define COLOR(Struct, member, text)                                                                \
-    { .name = text, .type = FIELD_COLOR, AT(Struct, member) }
-#define DOUBLE_AS(kept, Struct, member, text)                                                      \
-    { .name = text, .type = FIELD_DOUBLE, .presence = kept, AT(Struct, member) }
-#define DOUBLE(Struct, member, text) DOUBLE_AS(FIELD_PLAIN, Struct, member, text)
-#define VEC3_AS(kept, Struct, member, text)                                                        \
-    { .name = text, .type = FIELD_DOUBLES, .presence = kept, AT(Struct, member), .columns = 3 }
-#define VEC3(Struct, member, text) VEC3_AS(FIELD_PLAIN, Struct, member, text)
-#define RECORDS(Struct, member, count, text, table)                                                \
-    {                                                                                              \
-        .name = text, .type = FIELD_RECORDS, AT(Struct, member), .link = offsetof(Struct, count),  \
-        .record = table                                                                            \
-    }
-#define END                                                                                        \
-    { .name = NULL }
 
 // ---- settings, camera, lights ---------------------------------------------------------------
 
@@ -135,209 +106,7 @@ static void default_light(void *out) { *(Light *)out = light_default(LIGHT_POINT
 static void default_light_kind(void *out) { *(Light *)out = light_default(((Light *)out)->type); }
 static const Record LIGHT = {NULL, LIGHT_FIELDS, sizeof(Light), default_light, default_light_kind};
 
-// ---- textures -------------------------------------------------------------------------------
-
-// ORDER pattern_type
-static const char *const PATTERN_TYPE_NAMES[] = {
-    "plain",   "checker",    "gradient",    "agate",  "boxed",    "bozo",      "brick",   "cells",
-    "crackle", "cubic",      "cylindrical", "dents",  "granite",  "hexagon",   "leopard", "marble",
-    "onion",   "planar",     "quilted",     "radial", "ripples",  "spherical", "spiral1", "spiral2",
-    "square",  "triangular", "waves",       "wood",   "wrinkles", "average",   NULL,
-};
-_Static_assert(sizeof PATTERN_TYPE_NAMES / sizeof *PATTERN_TYPE_NAMES == PATTERN_MODELLED + 1,
-               "a name for each pattern");
-// ORDER wave_type
-static const char *const WAVE_TYPE_NAMES[] = {"ramp",  "triangle", "sine", "scallop",
-                                              "cubic", "poly",     NULL};
-// ORDER warp_type
-static const char *const WARP_TYPE_NAMES[] = {
-    "transform", "turbulence", "repeat",      "black_hole", "cubic",
-    "planar",    "spherical",  "cylindrical", "toroidal",   NULL,
-};
-
-#define TURBULENCE(Struct, at, limit)                                                              \
-    {.name = "amount",                                                                             \
-     .type = FIELD_DOUBLES,                                                                        \
-     .presence = FIELD_REQUIRED,                                                                   \
-     AT(Struct, at amount),                                                                        \
-     .columns = 3,                                                                                 \
-     .kinds = limit},                                                                              \
-        {.name = "octaves", .type = FIELD_INT, AT(Struct, at octaves), .kinds = limit},            \
-        {.name = "lambda", .type = FIELD_FLOAT, AT(Struct, at lambda), .kinds = limit}, {          \
-        .name = "omega", .type = FIELD_FLOAT, AT(Struct, at omega), .kinds = limit                 \
-    }
-
-static const Field TURBULENCE_FIELDS[] = {
-    TURBULENCE(Turbulence, , 0),
-    END,
-};
-static void default_turbulence(void *out) { *(Turbulence *)out = turbulence_default(); }
-static const Record TURBULENCE = {NULL, TURBULENCE_FIELDS, sizeof(Turbulence), default_turbulence,
-                                  NULL};
-
-static const Field CRACKLE_FIELDS[] = {
-    VEC3(CrackleShape, form, "form"),
-    DOUBLE(CrackleShape, metric, "metric"),
-    DOUBLE(CrackleShape, offset, "offset"),
-    BOOL(CrackleShape, solid, "solid"),
-    END,
-};
-static void default_crackle(void *out) { *(CrackleShape *)out = pattern_default().crackle; }
-static const Record CRACKLE = {NULL, CRACKLE_FIELDS, sizeof(CrackleShape), default_crackle, NULL};
-
-// Fields of a warp: `kinds` says which ones have it.
-#define OF(type) (1u << WARP_##type)
-#define WARP_VEC3(limit, member, text)                                                             \
-    { .name = text, .type = FIELD_DOUBLES, AT(Warp, member), .columns = 3, .kinds = limit }
-#define WARP_DOUBLE(limit, member, text)                                                           \
-    { .name = text, .type = FIELD_DOUBLE, AT(Warp, member), .kinds = limit }
-
-static const Field WARP_FIELDS[] = {
-    {.name = "type",
-     .type = FIELD_ENUM,
-     .presence = FIELD_ALWAYS,
-     AT(Warp, type),
-     .names = WARP_TYPE_NAMES},
-    {.name = "transform", .type = FIELD_TRANSFORM, AT(Warp, transform), .kinds = OF(TRANSFORM)},
-    TURBULENCE(Warp, turbulence., OF(TURBULENCE)),
-    {.name = "axis",
-     .type = FIELD_INT,
-     .presence = FIELD_REQUIRED,
-     AT(Warp, repeat.axis),
-     .kinds = OF(REPEAT)},
-    {.name = "width",
-     .type = FIELD_FLOAT,
-     .presence = FIELD_REQUIRED,
-     AT(Warp, repeat.width),
-     .kinds = OF(REPEAT)},
-    WARP_VEC3(OF(REPEAT), repeat.offset, "offset"),
-    WARP_VEC3(OF(REPEAT), repeat.flip, "flip"),
-    {.name = "center",
-     .type = FIELD_DOUBLES,
-     .presence = FIELD_REQUIRED,
-     AT(Warp, black_hole.center),
-     .columns = 3,
-     .kinds = OF(BLACK_HOLE)},
-    {.name = "radius",
-     .type = FIELD_DOUBLE,
-     .presence = FIELD_REQUIRED,
-     AT(Warp, black_hole.radius),
-     .kinds = OF(BLACK_HOLE)},
-    WARP_DOUBLE(OF(BLACK_HOLE), black_hole.strength, "strength"),
-    WARP_DOUBLE(OF(BLACK_HOLE), black_hole.falloff, "falloff"),
-    {.name = "inverse", .type = FIELD_BOOL, AT(Warp, black_hole.inverse), .kinds = OF(BLACK_HOLE)},
-    {.name = "repeat_size",
-     .type = FIELD_DOUBLES,
-     .presence = FIELD_FLAGGED,
-     AT(Warp, black_hole.repeat_size),
-     .link = offsetof(Warp, black_hole.repeat),
-     .columns = 3,
-     .kinds = OF(BLACK_HOLE)},
-    WARP_VEC3(OF(BLACK_HOLE), black_hole.uncertainty, "uncertainty"),
-    WARP_VEC3(OF(PLANAR) | OF(SPHERICAL) | OF(CYLINDRICAL) | OF(TOROIDAL), mapping.orientation,
-              "orientation"),
-    WARP_DOUBLE(OF(PLANAR), mapping.distance, "distance"),
-    WARP_DOUBLE(OF(SPHERICAL) | OF(CYLINDRICAL) | OF(TOROIDAL), mapping.dist_exp, "dist_exp"),
-    WARP_DOUBLE(OF(TOROIDAL), mapping.major_radius, "major_radius"),
-    END,
-};
-static void default_warp(void *out) { *(Warp *)out = warp_default(WARP_TRANSFORM); }
-static void default_warp_kind(void *out) { *(Warp *)out = warp_default(((Warp *)out)->type); }
-static const Record WARP = {NULL, WARP_FIELDS, sizeof(Warp), default_warp, default_warp_kind};
-
-static const Field MAP_ENTRY_FIELDS[] = {
-    {.name = "value", .type = FIELD_FLOAT, .presence = FIELD_REQUIRED, AT(MapEntry, value)},
-    COLOR(MapEntry, color, "color"),
-    INDEX(MapEntry, pigment, "pigment"),
-    END,
-};
-static void default_map_entry(void *out) { *(MapEntry *)out = (MapEntry){.pigment = NO_INDEX}; }
-static const Record MAP_ENTRY = {NULL, MAP_ENTRY_FIELDS, sizeof(MapEntry), default_map_entry, NULL};
-
-static const Field PIGMENT_FIELDS[] = {
-    {.name = "type",
-     .type = FIELD_ENUM,
-     .presence = FIELD_ALWAYS,
-     AT(Pigment, pattern.type),
-     .names = PATTERN_TYPE_NAMES},
-    VEC3(Pigment, pattern.gradient, "gradient"),
-    FLOAT(Pigment, pattern.agate_turb, "agate_turb"),
-    VEC3(Pigment, pattern.brick_size, "brick_size"),
-    FLOAT(Pigment, pattern.mortar, "mortar"),
-    {.name = "crackle", .type = FIELD_RECORD, AT(Pigment, pattern.crackle), .record = &CRACKLE},
-    {.name = "quilted", .type = FIELD_FLOATS, AT(Pigment, pattern.quilted), .columns = 2},
-    INT(Pigment, pattern.arms, "arms"),
-    ENUM(Pigment, pattern.wave, "wave", WAVE_TYPE_NAMES),
-    FLOAT(Pigment, pattern.frequency, "frequency"),
-    FLOAT(Pigment, pattern.phase, "phase"),
-    FLOAT(Pigment, pattern.exponent, "exponent"),
-    INT(Pigment, pattern.noise_generator, "noise_generator"),
-    COLOR(Pigment, color, "color"),
-    RECORDS(Pigment, entries, entry_count, "map", &MAP_ENTRY),
-    RECORDS(Pigment, pattern.warps, pattern.warp_count, "warps", &WARP),
-    {.name = "turbulence",
-     .type = FIELD_RECORD,
-     .presence = FIELD_FLAGGED,
-     AT(Pigment, pattern.turbulence),
-     .link = offsetof(Pigment, pattern.has_turbulence),
-     .record = &TURBULENCE},
-    BOOL(Pigment, uv_mapping, "uv_mapping"),
-    {.name = "quick_color",
-     .type = FIELD_COLOR,
-     .presence = FIELD_FLAGGED,
-     AT(Pigment, quick_color),
-     .link = offsetof(Pigment, has_quick_color)},
-    END,
-};
-static void default_pigment(void *out) {
-    *(Pigment *)out = (Pigment){.pattern = pattern_default()};
-}
-static const Record PIGMENT = {NULL, PIGMENT_FIELDS, sizeof(Pigment), default_pigment, NULL};
-
-static const Field FINISH_FIELDS[] = {
-    RGB(Finish, ambient, "ambient"),
-    RGB(Finish, emission, "emission"),
-    FLOAT(Finish, diffuse, "diffuse"),
-    FLOAT(Finish, diffuse_back, "diffuse_back"),
-    FLOAT(Finish, brilliance, "brilliance"),
-    FLOAT(Finish, crand, "crand"),
-    FLOAT(Finish, phong, "phong"),
-    FLOAT(Finish, phong_size, "phong_size"),
-    FLOAT(Finish, specular, "specular"),
-    FLOAT(Finish, roughness, "roughness"),
-    FLOAT(Finish, metallic, "metallic"),
-    RGB(Finish, reflection_min, "reflection_min"),
-    RGB(Finish, reflection_max, "reflection_max"),
-    FLOAT(Finish, reflection_falloff, "reflection_falloff"),
-    FLOAT(Finish, reflection_exponent, "reflection_exponent"),
-    FLOAT(Finish, reflection_metallic, "reflection_metallic"),
-    BOOL(Finish, reflection_fresnel, "reflection_fresnel"),
-    BOOL(Finish, conserve_energy, "conserve_energy"),
-    FLOAT(Finish, irid, "irid"),
-    FLOAT(Finish, irid_thickness, "irid_thickness"),
-    FLOAT(Finish, irid_turbulence, "irid_turbulence"),
-    END,
-};
-static void default_finish(void *out) { *(Finish *)out = finish_default(); }
-static const Record FINISH = {NULL, FINISH_FIELDS, sizeof(Finish), default_finish, NULL};
-
-static const Field LAYER_FIELDS[] = {
-    {.name = "pigment", .type = FIELD_INDEX, .presence = FIELD_REQUIRED, AT(Layer, pigment)},
-    {.name = "finish", .type = FIELD_RECORD, AT(Layer, finish), .record = &FINISH},
-    END,
-};
-static void default_layer(void *out) {
-    *(Layer *)out = (Layer){.pigment = NO_INDEX, .finish = finish_default()};
-}
-static const Record LAYER = {NULL, LAYER_FIELDS, sizeof(Layer), default_layer, NULL};
-
-static const Field TEXTURE_FIELDS[] = {
-    RECORDS(Texture, layers, layer_count, "layers", &LAYER),
-    BOOL(Texture, uv_mapping, "uv_mapping"),
-    END,
-};
-static void default_texture(void *out) { memset(out, 0, sizeof(Texture)); }
-static const Record TEXTURE = {NULL, TEXTURE_FIELDS, sizeof(Texture), default_texture, NULL};
+// ---- interiors, sky ------------------------------------------------------------------------
 
 static const Field INTERIOR_FIELDS[] = {
     FLOAT(Interior, ior, "ior"),
@@ -490,8 +259,8 @@ static const Field SCENE_FIELDS[] = {
      .link = offsetof(Scene, has_sky_sphere),
      .record = &SKY_SPHERE},
     RECORDS(Scene, lights, light_count, "lights", &LIGHT),
-    RECORDS(Scene, pigments, pigment_count, "pigments", &PIGMENT),
-    RECORDS(Scene, textures, texture_count, "textures", &TEXTURE),
+    RECORDS(Scene, pigments, pigment_count, "pigments", &PIGMENT_RECORD),
+    RECORDS(Scene, textures, texture_count, "textures", &TEXTURE_RECORD),
     RECORDS(Scene, interiors, interior_count, "interiors", &INTERIOR),
     END,
 };
@@ -543,7 +312,9 @@ static bool record_equal(const Record *record, const void *a, const void *b) {
     return true;
 }
 
-bool pigment_equal(const Pigment *a, const Pigment *b) { return record_equal(&PIGMENT, a, b); }
+bool pigment_equal(const Pigment *a, const Pigment *b) {
+    return record_equal(&PIGMENT_RECORD, a, b);
+}
 
 bool field_belongs(const Record *table, const Field *field, const void *record) {
     return field->kinds == 0 ||

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+// Inside the room: what scene_validate.c and check_texture.c share. Each function dies naming the
+// field when the value is not what the renderer relies on.
+#ifndef MODEL_CHECK_H
+#define MODEL_CHECK_H
+
+#include "model/field_path.h"
+#include "model/scene.h"
+
+// Coordinates may be as large as a product of crossed vectors, squared, still fits a double:
+// |a x b|^2 <= 4 (1e60)^4 = 4e240 < 1e308.
+#define MAX_COORDINATE 1e60
+
+typedef struct {
+    const Scene *scene;
+    const char *file;
+    const uint32_t *positions;
+    bool *met;            // per object: already part of a tree
+    uint8_t *pigment_met; // per pigment: 0 not yet, 1 on the way down, 2 good
+} Check;
+
+#define refuse(c, path, ...) path_die((c)->file, path, __VA_ARGS__)
+
+void check_numbers(const Check *c, const FieldPath *up, const char *name, const double *values,
+                   int count);
+void check_floats(const Check *c, const FieldPath *up, const char *name, const float *values,
+                  int count);
+void check_float(const Check *c, const FieldPath *up, const char *name, float value);
+void check_rgb(const Check *c, const FieldPath *up, const char *name, Rgb value);
+void check_color(const Check *c, const FieldPath *up, const char *name, Color value);
+void check_vec3(const Check *c, const FieldPath *up, const char *name, Vec3 value);
+void check_unit(const Check *c, const FieldPath *up, const char *name, Vec3 value);
+void check_size(const Check *c, const FieldPath *up, const char *name, double value);
+void check_not_zero(const Check *c, const FieldPath *up, const char *name, double value);
+void check_range(const Check *c, const FieldPath *up, const char *name, int value, int low,
+                 int high);
+void check_index(const Check *c, const FieldPath *path, uint32_t index, uint32_t count,
+                 const char *what);
+void check_transform(const Check *c, const FieldPath *up, const char *name, const Transform *t);
+
+// check_texture.c
+void check_pigments(Check *c);
+void check_textures(const Check *c);
+
+#endif

@@ -1,0 +1,10 @@
+// SPDX-License-Identifier: MIT
+// Inside the room: the tables of texture_fields.c that scene_fields.c lists.
+#ifndef MODEL_TEXTURE_FIELDS_H
+#define MODEL_TEXTURE_FIELDS_H
+
+#include "model/scene_fields.h"
+
+extern const Record PIGMENT_RECORD, TEXTURE_RECORD;
+
+#endif

@@ -162,6 +162,8 @@ static Image *develop(const Film *film, const Color *picture, const RenderOption
 Image *render_scene(const Scene *scene, const RenderOptions *o, Arena *arena,
                     ImageWriteOptions *write, RenderStats *stats) {
     *stats = (RenderStats){.threads = o->threads > 0 ? o->threads : omp_get_num_procs()};
+    // For all that is prepared in parallel as well; threads that wait for work cost time too.
+    omp_set_num_threads(stats->threads);
 
     // Prepare the world.
     double start = progress_seconds();

@@ -39,8 +39,9 @@ shape base model patch shape
 texture base image model texture
 render base image kernel model options patch render shape texture
 report base image model options render report
-cmd base converter image model options patch render report cmd
-tests base converter image kernel model options patch render report shape texture tests
+bench base converter image model options patch kernel render bench
+cmd base bench converter image model options patch render report cmd
+tests base bench converter image kernel model options patch render report shape texture tests
 ROOMS
 xargs grep -nE '^ *# *include +"' <"$work/all" | awk -v arrows="$work/arrows" '
     BEGIN {

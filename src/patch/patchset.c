@@ -133,6 +133,41 @@ bool patchset_intersect(const PatchSet *set, const Ray *ray, double t_min, doubl
     return query.found;
 }
 
+// Looks for the nearest hit that is farther from the ray's origin than its bound.
+typedef struct {
+    double length; // of the ray's dir
+    bool found;
+    PatchHit best;
+} Leaving;
+
+static bool is_left(const Leaving *leaving, const PatchHit *hit) {
+    return hit->t * leaving->length <= hit->bound;
+}
+
+static void take_beyond(void *context, const PatchHit *hit) {
+    Leaving *leaving = context;
+    if (is_left(leaving, hit) || (leaving->found && hit->t >= leaving->best.t))
+        return;
+    leaving->found = true;
+    leaving->best = *hit;
+}
+
+bool patchset_intersect_leaving(const PatchSet *set, const Ray *ray, double t_max, uint32_t mask,
+                                PatchStats *stats, PatchHit *hit) {
+    PatchHit nearest;
+    if (!patchset_intersect(set, ray, 0.0, t_max, mask, stats, &nearest))
+        return false;
+    Leaving leaving = {.length = hypot(hypot(ray->dir.x, ray->dir.y), ray->dir.z)};
+    if (!is_left(&leaving, &nearest)) {
+        *hit = nearest;
+        return true;
+    }
+    patchset_all(set, ray, 0.0, t_max, mask, stats, take_beyond, &leaving);
+    if (leaving.found)
+        *hit = leaving.best;
+    return leaving.found;
+}
+
 bool patchset_occluded(const PatchSet *set, const Ray *ray, double t_min, double t_max,
                        uint32_t mask, PatchStats *stats) {
     Query query = {.ray = *ray, .t_min = t_min, .t_max = t_max, .mask = mask, .kind = QUERY_ANY};

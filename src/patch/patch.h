@@ -69,8 +69,8 @@ uint64_t patchset_memory(const PatchSet *set); // bytes after commit
 // Nearest hit with t_min <= t < t_max among the patches that mask selects. stats may be NULL.
 bool patchset_intersect(const PatchSet *set, const Ray *ray, double t_min, double t_max,
                         uint32_t mask, PatchStats *stats, PatchHit *hit);
-// The same from t = 0 on for a ray that leaves a surface: a hit that lies within its own bound of the
-// ray's origin is that surface, and does not count.
+// The same from t = 0 on for a ray that leaves a surface: a hit that lies within its own bound of
+// the ray's origin is that surface, and does not count.
 bool patchset_intersect_leaving(const PatchSet *set, const Ray *ray, double t_max, uint32_t mask,
                                 PatchStats *stats, PatchHit *hit);
 // Is there any?

@@ -394,6 +394,32 @@ static void emit_sky(Emitter *e) {
         sky->pigments[--i] = emit_pigment(e, list->pigment);
 }
 
+static void emit_fogs(Emitter *e) {
+    Scene *scene = e->scene;
+    uint32_t count = 0;
+    for (const FogNode *node = e->cv->nodes->fogs; node; node = node->next)
+        count++;
+    scene->fogs = ARENA_ARRAY(e->cv->arena, Fog, count);
+    for (const FogNode *node = e->cv->nodes->fogs; node; node = node->next)
+        if (fabs(node->fog.distance) > 1e-10) // POV-Ray's limit
+            scene->fogs[scene->fog_count++] = node->fog;
+}
+
+static void emit_rainbows(Emitter *e) {
+    Scene *scene = e->scene;
+    uint32_t count = 0;
+    for (const RainbowNode *node = e->cv->nodes->rainbows; node; node = node->next)
+        count++;
+    scene->rainbows = ARENA_ARRAY(e->cv->arena, Rainbow, count);
+    for (const RainbowNode *node = e->cv->nodes->rainbows; node; node = node->next) {
+        if (!node->pigment || node->rainbow.distance == 0 || node->rainbow.width_deg == 0)
+            continue;
+        Rainbow *bow = &scene->rainbows[scene->rainbow_count++];
+        *bow = node->rainbow;
+        bow->pigment = emit_pigment(e, node->pigment);
+    }
+}
+
 // Copies a pool into the arena and drops it.
 #define KEEP(e, scene, pool, count_field)                                                          \
     do {                                                                                           \
@@ -423,6 +449,8 @@ Scene *emit_scene(Converter *cv) {
     emit_gaps(e, cv->nodes->gaps);
     emit_roots(e);
     emit_sky(e);
+    emit_fogs(e);
+    emit_rainbows(e);
     keep_pools(e);
     if (e->scene->root_count == 0)
         warn("'%s' shows no objects", cv->options->input);

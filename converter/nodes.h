@@ -204,14 +204,22 @@ typedef struct {
     Transform transform;
 } SkySphereNode;
 
-typedef struct { // fog, rainbow
-    const Loc *loc;
-} AtmosphereNode;
+// All that were written, the last first.
+typedef struct FogNode {
+    const struct FogNode *next;
+    Fog fog; // distance 0: it does nothing
+} FogNode;
+
+typedef struct RainbowNode {
+    const struct RainbowNode *next;
+    Rainbow rainbow;            // all but the pigment
+    const PatternNode *pigment; // NULL: no color_map, it does nothing
+} RainbowNode;
 
 CameraNode *parse_camera_block(Converter *cv);
 const SkySphereNode *parse_sky_sphere_block(Converter *cv);
-const AtmosphereNode *parse_fog_block(Converter *cv);
-const AtmosphereNode *parse_rainbow_block(Converter *cv);
+FogNode *parse_fog_block(Converter *cv);
+RainbowNode *parse_rainbow_block(Converter *cv);
 void parse_global_settings(Converter *cv);
 // A setting that is one number: if token, the next one, names it.
 bool parse_number_setting(Converter *cv, const Token *token);
@@ -293,6 +301,8 @@ struct Nodes {
     CameraNode *camera; // NULL: none yet
     RootNode *first, *last;
     const SkySphereNode *sky_sphere;
+    const FogNode *fogs;
+    const RainbowNode *rainbows;
     Settings settings; // version, noise and gamma are filled by emit.c
     const Gap *gaps;   // fog, radiosity, ...
 };

@@ -211,10 +211,13 @@ static void parse_atmosphere(Converter *cv, const Token *token) {
         parse_media_block(cv);
         note_gap(cv, gaps, token, "media is not modelled: the air is clear");
     } else if (token->code == KW_rainbow) {
-        parse_rainbow_block(cv);
-        note_gap(cv, gaps, token, "rainbow is not modelled: it is missing in the picture");
-    } else if (parse_fog_block(cv)->loc) {
-        note_gap(cv, gaps, token, "fog is not modelled: the air is clear");
+        RainbowNode *node = parse_rainbow_block(cv);
+        node->next = cv->nodes->rainbows;
+        cv->nodes->rainbows = node;
+    } else {
+        FogNode *node = parse_fog_block(cv);
+        node->next = cv->nodes->fogs;
+        cv->nodes->fogs = node;
     }
 }
 

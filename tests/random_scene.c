@@ -500,6 +500,66 @@ static void make_sky_sphere(Rng *rng, Arena *arena, Scene *scene) {
     sky->transform = random_transform(rng);
 }
 
+#define FOG_MEMBERS(X)                                                                             \
+    X(FogType, type)                                                                               \
+    X(double, distance)                                                                            \
+    X(double, alt)                                                                                 \
+    X(double, offset)                                                                              \
+    X(Vec3, up)                                                                                    \
+    X(Color, color)                                                                                \
+    X(bool, has_turbulence)                                                                        \
+    X(Turbulence, turbulence)                                                                      \
+    X(float, turb_depth)
+
+static Fog make_fog(Rng *rng) {
+    Fog fog = fog_default();
+    fog.type = (FogType)random_below(rng, 2);
+    fog.distance = rng_range(rng, 0.1, 9);
+    fog.alt = random_double(rng), fog.offset = random_double(rng);
+    fog.up = random_unit(rng);
+    fog.color = random_color(rng);
+    fog.has_turbulence = random_bool(rng);
+    if (fog.has_turbulence)
+        fog.turbulence = make_turbulence(rng);
+    fog.turb_depth = random_float(rng);
+    return fog;
+}
+
+#define RAINBOW_MEMBERS(X)                                                                         \
+    X(uint32_t, pigment)                                                                           \
+    X(Vec3, direction)                                                                             \
+    X(Vec3, right)                                                                                 \
+    X(Vec3, up)                                                                                    \
+    X(double, distance)                                                                            \
+    X(double, angle_deg)                                                                           \
+    X(double, width_deg)                                                                           \
+    X(double, arc_deg)                                                                             \
+    X(double, falloff_deg)                                                                         \
+    X(double, jitter)
+
+static Rainbow make_rainbow(Rng *rng, const Scene *scene) {
+    Rainbow bow = rainbow_default();
+    bow.pigment = random_below(rng, scene->pigment_count);
+    bow.direction = random_unit(rng), bow.right = random_unit(rng), bow.up = random_unit(rng);
+    bow.distance = random_double(rng);
+    bow.angle_deg = random_double(rng), bow.width_deg = rng_range(rng, 1, 9);
+    if (random_bool(rng))
+        bow.arc_deg = rng_range(rng, 100, 200), bow.falloff_deg = rng_range(rng, 0, 100);
+    bow.jitter = random_double(rng);
+    return bow;
+}
+
+static void make_air(Rng *rng, Arena *arena, Scene *scene) {
+    scene->fog_count = random_below(rng, 3);
+    scene->fogs = ARENA_ARRAY(arena, Fog, scene->fog_count);
+    for (uint32_t i = 0; i < scene->fog_count; i++)
+        scene->fogs[i] = make_fog(rng);
+    scene->rainbow_count = random_below(rng, 3);
+    scene->rainbows = ARENA_ARRAY(arena, Rainbow, scene->rainbow_count);
+    for (uint32_t i = 0; i < scene->rainbow_count; i++)
+        scene->rainbows[i] = make_rainbow(rng, scene);
+}
+
 Scene *random_scene(Rng *rng, Arena *arena) {
     Scene *scene = ARENA_NEW(arena, Scene);
     scene->settings = make_settings(rng);
@@ -521,6 +581,7 @@ Scene *random_scene(Rng *rng, Arena *arena) {
     for (uint32_t i = 0; i < scene->interior_count; i++)
         scene->interiors[i] = make_interior(rng);
     make_sky_sphere(rng, arena, scene);
+    make_air(rng, arena, scene);
     scene->objects = ARENA_ARRAY(arena, Object, MAX_OBJECTS);
     scene->root_count = make_objects(rng, arena, scene, 0, &scene->roots);
     scene_collect_requires(scene, arena);
@@ -695,8 +756,20 @@ static const char *sky_difference(const Scene *scene_a, const Scene *scene_b) {
     return transform_difference(&a->transform, &b->transform);
 }
 
+static const char *fog_difference(const Fog *a, const Fog *b) {
+    FOG_MEMBERS(COMPARE)
+    return NULL;
+}
+
+static const char *rainbow_difference(const Rainbow *a, const Rainbow *b) {
+    RAINBOW_MEMBERS(COMPARE)
+    return NULL;
+}
+
 const char *scene_difference(const Scene *a, const Scene *b) {
     COMPARE(bool, has_sky_sphere)
+    COMPARE(uint32_t, fog_count)
+    COMPARE(uint32_t, rainbow_count)
     COMPARE(uint32_t, light_count)
     COMPARE(uint32_t, pigment_count)
     COMPARE(uint32_t, texture_count)
@@ -715,6 +788,8 @@ const char *scene_difference(const Scene *a, const Scene *b) {
         difference = sky_difference(a, b);
     if (difference)
         return difference;
+    COMPARE_EACH(fogs, fog_count, fog_difference)
+    COMPARE_EACH(rainbows, rainbow_count, rainbow_difference)
     COMPARE_EACH(lights, light_count, light_difference)
     COMPARE_EACH(pigments, pigment_count, pigment_difference)
     COMPARE_EACH(textures, texture_count, texture_difference)

@@ -385,7 +385,7 @@ static void gaps_are_said_when_used(void **state) {
     assert_int_equal(result.warnings, 2); // once a place
     result = convert_text("#declare P = pigment { wood turbulence 1 scale 2 };\n");
     assert_int_equal(result.warnings, 1); // no object
-    result = convert_text("global_settings { radiosity { count 3 } } fog { distance 3 rgb 1 } "
+    result = convert_text("global_settings { radiosity { count 3 } } media { emission 1 } "
                           "fog { distance 0 rgb 1 } sphere { 0, 1 }");
     assert_int_equal(result.warnings, 2);
     result = convert_text("intersection { sphere { 0, 1 } ovus { 2, 1 } } union { sphere { 0, 1 } "

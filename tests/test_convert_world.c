@@ -211,16 +211,36 @@ static void sky_spheres(void **state) {
 
 static void air(void **state) {
     (void)state;
-    scene_of("#declare F = fog { distance 10 rgb 1 fog_type 2 fog_alt 1 fog_offset 2 up y "
-             "turbulence 0.5 turb_depth 1 octaves 3 omega 1 lambda 2 rotate x }\n"
-             "fog { F distance 3 } "
-             "rainbow { direction x angle 42 width 5 distance 1e6 jitter 0.1 up y arc_angle 100 "
-             "falloff_angle 50 color_map { [0 rgb 0][1 rgb 1] } }"
-             "media { intervals 3 samples 1, 2 method 3 confidence 0.9 variance 0.1 ratio 0.5 "
-             "absorption 1 emission 1 scattering { 5, rgb 1 eccentricity 0.5 extinction 1 } "
-             "density { bozo color_map { [0 rgb 0][1 rgb 1] } } jitter 1 aa_level 3 "
-             "aa_threshold 0.1 scale 2 } sphere { 0, 1 }");
-    assert_warns("fog { distance 10 } sphere { 0, 1 }", "fog is not modelled");
+    Scene *s = scene_of(
+        "#declare F = fog { distance 10 rgb 1 fog_type 2 fog_alt 1 fog_offset 2 up y "
+        "turbulence 0.5 turb_depth 1 octaves 3 omega 1 lambda 2 rotate x }\n"
+        "fog { F distance 3 } "
+        "rainbow { direction x angle 42 width 5 distance 1e6 jitter 0.1 up y arc_angle 100 "
+        "falloff_angle 50 color_map { [0 rgb 0][1 rgb 1] } }"
+        "media { intervals 3 samples 1, 2 method 3 confidence 0.9 variance 0.1 ratio 0.5 "
+        "absorption 1 emission 1 scattering { 5, rgb 1 eccentricity 0.5 extinction 1 } "
+        "density { bozo color_map { [0 rgb 0][1 rgb 1] } } jitter 1 aa_level 3 "
+        "aa_threshold 0.1 scale 2 } sphere { 0, 1 }");
+    assert_int_equal(s->fog_count, 1);
+    assert_int_equal(s->fogs[0].type, FOG_GROUND);
+    assert_true(s->fogs[0].distance == 3 && s->fogs[0].offset == 2 && s->fogs[0].alt == 1);
+    assert_vec(s->fogs[0].up, 0, cos(M_PI / 180), sin(M_PI / 180));
+    assert_int_equal(s->fogs[0].turbulence.octaves, 3);
+    assert_int_equal(s->rainbow_count, 1);
+    assert_vec(s->rainbows[0].right, 0, 0, -1);
+    assert_true(s->rainbows[0].arc_deg == 100 && s->rainbows[0].falloff_deg == 50);
+    s = scene_of("fog { 1 rgb x } fog { distance 0 } fog { 2 rgb z } rainbow { direction x } "
+                 "sphere { 0, 1 }");
+    assert_int_equal(s->fog_count, 2);
+    assert_near(s->fogs[0].color.b, 1); // the last one first
+    assert_int_equal(s->rainbow_count, 0);
+    assert_dies("rainbow { angle 10, width 2 }", "found instead");
+    assert_dies("rainbow { angle 10 }", "direction of a rainbow");
+    assert_dies("rainbow { direction y }", "must not point along");
+    assert_dies("rainbow { direction x up 0 }", "up vector");
+    assert_dies("rainbow { direction x arc_angle 400 }", "0 to 360 degrees, not 400");
+    assert_dies("rainbow { direction x arc_angle 10 falloff_angle 20 }", "smaller than");
+    assert_warns("fog { distance 1 translate x } sphere { 0, 1 }", "cannot be translated");
     assert_warns("sphere { 0, 1 interior { media { emission 1 } } }", "media is not modelled");
     assert_silent("#declare I = interior { media { emission 1 } } sphere { 0, 1 }");
 }

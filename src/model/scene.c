@@ -58,6 +58,19 @@ Light light_default(LightType type) {
 
 Interior interior_default(void) { return (Interior){.ior = 1.0f}; }
 
+Fog fog_default(void) {
+    return (Fog){.up = {0, 1, 0}, .turbulence = turbulence_default(), .turb_depth = 0.5f};
+}
+
+Rainbow rainbow_default(void) {
+    return (Rainbow){.pigment = NO_INDEX,
+                     .right = {1, 0, 0},
+                     .up = {0, 1, 0},
+                     .distance = 1e7,
+                     .arc_deg = RAINBOW_ALL_AROUND,
+                     .falloff_deg = RAINBOW_ALL_AROUND};
+}
+
 Turbulence turbulence_default(void) {
     return (Turbulence){.octaves = 6, .lambda = 2.0f, .omega = 0.5f};
 }
@@ -163,6 +176,7 @@ bool object_is_tree(const Object *object) {
     X(diffuse_back)                                                                                \
     X(disc)                                                                                        \
     X(double_illuminate)                                                                           \
+    X(fog)                                                                                         \
     X(gradient)                                                                                    \
     X(granite)                                                                                     \
     X(hexagon)                                                                                     \
@@ -194,6 +208,7 @@ bool object_is_tree(const Object *object) {
     X(point_light)                                                                                 \
     X(quilted)                                                                                     \
     X(radial)                                                                                      \
+    X(rainbow)                                                                                     \
     X(reflection)                                                                                  \
     X(reflection_fresnel)                                                                          \
     X(refraction)                                                                                  \
@@ -381,6 +396,8 @@ void scene_collect_requires(Scene *scene, Arena *arena) {
     need(&set, FEATURE_perspective, scene->camera.type == CAMERA_PERSPECTIVE);
     need(&set, FEATURE_orthographic, scene->camera.type == CAMERA_ORTHOGRAPHIC);
     need(&set, FEATURE_sky_sphere, scene->has_sky_sphere);
+    need(&set, FEATURE_fog, scene->fog_count > 0);
+    need(&set, FEATURE_rainbow, scene->rainbow_count > 0);
     collect_lights(scene, &set);
     collect_pigments(scene, &set);
     collect_textures(scene, &set);

@@ -368,11 +368,42 @@ typedef struct {
     Transform transform;
 } SkySphere;
 
+// ORDER fog_type
+typedef enum { FOG_CONSTANT, FOG_GROUND } FogType;
+
+typedef struct {
+    FogType type;
+    double distance;    // never 0: at this depth 1/e of what lies behind is left
+    double alt, offset; // ground: full below offset along up, thinner above by the scale of alt
+    Vec3 up;
+    Color color; // transmit: so much is left at any depth; filter: what is left takes its colour
+    bool has_turbulence;
+    Turbulence turbulence;
+    float turb_depth; // default 0.5
+} Fog;
+
+enum { RAINBOW_ALL_AROUND = -1 };
+
+typedef struct {
+    uint32_t pigment;          // a gradient along x, looked up from 0 to 1 across the bow
+    Vec3 direction, right, up; // unit, across each other; direction points away from the sun
+    double distance;           // default 1e7
+    double angle_deg;          // from direction to the middle of the bow
+    double width_deg;          // never 0
+    double arc_deg;            // 0..360: no bow beyond this angle in all, or RAINBOW_ALL_AROUND
+    double falloff_deg;        // 0..arc_deg: where it begins to fade; the same
+    double jitter;             // in widths
+} Rainbow;
+
 typedef struct {
     Settings settings;
     Camera camera;
     bool has_sky_sphere;
     SkySphere sky_sphere;
+    Fog *fogs; // the last one written first
+    uint32_t fog_count;
+    Rainbow *rainbows; // the same
+    uint32_t rainbow_count;
     Light *lights;
     uint32_t light_count;
     Pigment *pigments;
@@ -398,6 +429,9 @@ AreaLight area_light_default(void);
 // Are both the same, member by member and bit by bit? They may be of different scenes with the same
 // pools: pigments in maps are compared by index.
 bool pigment_equal(const Pigment *a, const Pigment *b);
+
+Fog fog_default(void);         // without a distance
+Rainbow rainbow_default(void); // without a pigment and a direction
 
 Turbulence turbulence_default(void); // without an amount
 Pattern pattern_default(void);

@@ -134,6 +134,44 @@ static void default_sky_sphere(void *out) {
 static const Record SKY_SPHERE = {NULL, SKY_SPHERE_FIELDS, sizeof(SkySphere), default_sky_sphere,
                                   NULL};
 
+// ORDER fog_type
+static const char *const FOG_TYPE_NAMES[] = {"constant", "ground", NULL};
+
+static const Field FOG_FIELDS[] = {
+    ENUM(Fog, type, "type", FOG_TYPE_NAMES),
+    DOUBLE_AS(FIELD_REQUIRED, Fog, distance, "distance"),
+    {.name = "color", .type = FIELD_COLOR, .presence = FIELD_REQUIRED, AT(Fog, color)},
+    DOUBLE(Fog, alt, "alt"),
+    DOUBLE(Fog, offset, "offset"),
+    VEC3(Fog, up, "up"),
+    {.name = "turbulence",
+     .type = FIELD_RECORD,
+     .presence = FIELD_FLAGGED,
+     AT(Fog, turbulence),
+     .link = offsetof(Fog, has_turbulence),
+     .record = &TURBULENCE},
+    FLOAT(Fog, turb_depth, "turb_depth"),
+    END,
+};
+static void default_fog(void *out) { *(Fog *)out = fog_default(); }
+static const Record FOG = {NULL, FOG_FIELDS, sizeof(Fog), default_fog, NULL};
+
+static const Field RAINBOW_FIELDS[] = {
+    {.name = "pigment", .type = FIELD_INDEX, .presence = FIELD_REQUIRED, AT(Rainbow, pigment)},
+    VEC3_AS(FIELD_REQUIRED, Rainbow, direction, "direction"),
+    VEC3(Rainbow, right, "right"),
+    VEC3(Rainbow, up, "up"),
+    DOUBLE(Rainbow, distance, "distance"),
+    DOUBLE_AS(FIELD_REQUIRED, Rainbow, angle_deg, "angle"),
+    DOUBLE_AS(FIELD_REQUIRED, Rainbow, width_deg, "width"),
+    DOUBLE(Rainbow, arc_deg, "arc_angle"),
+    DOUBLE(Rainbow, falloff_deg, "falloff_angle"),
+    DOUBLE(Rainbow, jitter, "jitter"),
+    END,
+};
+static void default_rainbow(void *out) { *(Rainbow *)out = rainbow_default(); }
+static const Record RAINBOW = {NULL, RAINBOW_FIELDS, sizeof(Rainbow), default_rainbow, NULL};
+
 // ---- objects --------------------------------------------------------------------------------
 
 // ORDER object_type
@@ -258,6 +296,8 @@ static const Field SCENE_FIELDS[] = {
      AT(Scene, sky_sphere),
      .link = offsetof(Scene, has_sky_sphere),
      .record = &SKY_SPHERE},
+    RECORDS(Scene, fogs, fog_count, "fogs", &FOG),
+    RECORDS(Scene, rainbows, rainbow_count, "rainbows", &RAINBOW),
     RECORDS(Scene, lights, light_count, "lights", &LIGHT),
     RECORDS(Scene, pigments, pigment_count, "pigments", &PIGMENT_RECORD),
     RECORDS(Scene, textures, texture_count, "textures", &TEXTURE_RECORD),

@@ -101,6 +101,40 @@ static void check_sky_sphere(const Check *c) {
     check_transform(c, &path, "transform", &sky->transform);
 }
 
+static void check_fog(const Check *c, const FieldPath *path, const Fog *fog) {
+    check_range(c, path, "type", (int)fog->type, FOG_CONSTANT, FOG_GROUND);
+    check_numbers(c, path, "distance", &fog->distance, 1);
+    if (fog->distance == 0) {
+        const FieldPath distance = path_field(path, "distance");
+        refuse(c, &distance, "it must not be 0");
+    }
+    check_numbers(c, path, "alt", &fog->alt, 1);
+    check_numbers(c, path, "offset", &fog->offset, 1);
+    check_vec3(c, path, "up", fog->up);
+    check_color(c, path, "color", fog->color);
+    check_float(c, path, "turb_depth", fog->turb_depth);
+    if (fog->has_turbulence) {
+        const FieldPath turbulence = path_field(path, "turbulence");
+        check_turbulence(c, &turbulence, &fog->turbulence);
+    }
+}
+
+static void check_rainbow(const Check *c, const FieldPath *path, const Rainbow *rainbow) {
+    const FieldPath pigment = path_field(path, "pigment"), width = path_field(path, "width");
+    check_index(c, &pigment, rainbow->pigment, c->scene->pigment_count, "pigment");
+    check_vec3(c, path, "direction", rainbow->direction);
+    check_vec3(c, path, "right", rainbow->right);
+    check_vec3(c, path, "up", rainbow->up);
+    check_numbers(c, path, "distance", &rainbow->distance, 1);
+    check_numbers(c, path, "angle", &rainbow->angle_deg, 1);
+    check_numbers(c, path, "width", &rainbow->width_deg, 1);
+    if (rainbow->width_deg == 0)
+        refuse(c, &width, "it must not be 0");
+    check_numbers(c, path, "arc_angle", &rainbow->arc_deg, 1);
+    check_numbers(c, path, "falloff_angle", &rainbow->falloff_deg, 1);
+    check_numbers(c, path, "jitter", &rainbow->jitter, 1);
+}
+
 // ---- objects --------------------------------------------------------------------------------
 
 static void check_patch(const Check *c, const FieldPath *path, const PatchShape *patch) {
@@ -245,6 +279,14 @@ static void check_scene(void *context) {
     check_settings(c);
     check_camera(c);
     check_sky_sphere(c);
+    for (uint32_t i = 0; i < scene->fog_count; i++) {
+        const FieldPath path = path_item(NULL, "fogs", i);
+        check_fog(c, &path, &scene->fogs[i]);
+    }
+    for (uint32_t i = 0; i < scene->rainbow_count; i++) {
+        const FieldPath path = path_item(NULL, "rainbows", i);
+        check_rainbow(c, &path, &scene->rainbows[i]);
+    }
     for (uint32_t i = 0; i < scene->light_count; i++) {
         const FieldPath path = path_item(NULL, "lights", i);
         check_light(c, &path, &scene->lights[i]);

@@ -123,6 +123,8 @@ static void write_record(Writer *w, const Record *record, const void *at) {
         Warp warp;
         AreaLight area_light;
         Light light;
+        Fog fog;
+        Rainbow rainbow;
         MapEntry entry;
         Layer layer;
         Texture texture;

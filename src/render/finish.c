@@ -7,12 +7,6 @@
 
 #include <math.h>
 
-// POV-Ray's generator for crand: a step of 32 bits, then the whole state as a fraction.
-static double crand_next(Tracer *tracer) {
-    tracer->crand = tracer->crand * 1812433253u + 12345u;
-    return (double)tracer->crand / 4294967295.0;
-}
-
 void finish_diffuse(Tracer *tracer, const LitLayer *layer, Vec3 dir, Rgb light, bool backside,
                     Rgb *color) {
     const Finish *finish = layer->finish;
@@ -24,7 +18,7 @@ void finish_diffuse(Tracer *tracer, const LitLayer *layer, Vec3 dir, Rgb light, 
         intensity = pow(intensity, finish->brilliance);
     intensity *= diffuse * layer->opacity;
     if (finish->crand > 0.0f)
-        intensity -= crand_next(tracer) * finish->crand;
+        intensity -= tracer_random(&tracer->crand) * finish->crand;
     *color = rgb_add(*color, rgb_mul(rgb_scale(layer->color, intensity), light));
 }
 

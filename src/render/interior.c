@@ -32,6 +32,13 @@ static bool is_current(const InteriorList *list, const InteriorList *node) {
     return !node->left;
 }
 
+bool interior_hollow(const InteriorList *list, const bool *hollow) {
+    for (const InteriorList *node = list; node != NULL; node = node->outer)
+        if (!hollow[node->body] && is_current(list, node))
+            return false;
+    return true;
+}
+
 // The chain from the last body entered and not left, or NULL.
 static const InteriorList *innermost(const InteriorList *list) {
     for (const InteriorList *node = list; node != NULL; node = node->outer)

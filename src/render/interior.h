@@ -22,6 +22,9 @@ const Interior *body_interior(const Scene *scene, uint32_t body);
 
 bool interior_inside(const InteriorList *list, uint32_t body);
 
+// Are all bodies around hollow (one flag a body)?
+bool interior_hollow(const InteriorList *list, const bool *hollow);
+
 // Crosses the surface of body: the first crossing enters, the second leaves, whatever side it is.
 // node is the new ray's own storage, *after its list. Returns the ratio of the refraction indices
 // (here / beyond).

@@ -19,11 +19,7 @@ typedef struct {
     Rgb color;    // before shadows
 } Grid;
 
-// The same generator as for crand.
-static double jitter_next(Tracer *tracer) {
-    tracer->area_jitter = tracer->area_jitter * 1812433253u + 12345u;
-    return tracer->area_jitter * 0x1p-32 - 0.5;
-}
+static double jitter_next(Tracer *tracer) { return tracer_random(&tracer->area_jitter) - 0.5; }
 
 static void turn_axes(const AreaLight *area, Vec3 towards, Vec3 axis[2]) {
     axis[0] = area->axis[0];

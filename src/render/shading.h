@@ -10,6 +10,7 @@
 //   interior.c    the list of bodies a ray is in
 //   refract.c     the refracted direction, fading
 //   atmosphere.c  what a ray sees that hits nothing
+//   fog.c rainbow.c  what lies before anything that a ray sees
 #ifndef RENDER_SHADING_H
 #define RENDER_SHADING_H
 
@@ -20,11 +21,12 @@
 // POV-Ray's constants (facts: rendering 0.2).
 #define SHADE_EPS 1e-10       // near zero: a light that is black, a surface edge-on, ratios of 1
 #define SHADE_MIN_DEPTH 1e-4  // a hit nearer than this is ignored, whatever the ray is for
+#define SHADE_FAR 2e10        // the depth of what is not hit
 #define SHADE_SHADOW_TOL 1e-3 // shadow rays: nearer to the surface, or to the light, is no shadow
 
 // +Q: what is left out below 9.
 typedef struct {
-    bool ambient_only, quick_color, shadows, area_lights, refraction, reflection;
+    bool ambient_only, quick_color, shadows, area_lights, refraction, reflection, air;
 } Quality;
 
 typedef struct {
@@ -38,6 +40,12 @@ typedef struct {
     double radius, falloff; // spot: cosines; cylinder: lengths
 } LightAxis;
 
+// Of a rainbow, in radians: where it starts from its direction, how wide it is; where its arc ends
+// and begins to fade.
+typedef struct {
+    double start, width, arc, falloff;
+} BowAngles;
+
 struct Shading {
     const Scene *scene;
     const World *world;
@@ -47,7 +55,9 @@ struct Shading {
     bool all_opaque;      // everything that throws a shadow has ObjectInfo.opaque
     uint32_t layer_limit; // layers in the largest texture
     ObjectInfo *objects;  // one per scene object
+    bool *hollow;         // one per body: fog goes on inside
     LightAxis *axes;      // one per light
+    BowAngles *bows;      // one per rainbow
     size_t grid_limit;    // points in the largest area light
     Arena *arena;
 };
@@ -85,6 +95,7 @@ struct Tracer {
     RayStats stats;
     uint32_t crand;               // state of the generator, from the camera ray's bits
     uint32_t area_jitter;         // the same for points of area lights
+    uint32_t bow_jitter;          // and of rainbows
     LightSample *lights;          // one per light, for the hit being shaded
     Rgb *grid;                    // light_area.c: what is known of the area light at hand
     LayerReflection *reflections; // a stack; each hit under way holds a piece of it
@@ -117,6 +128,9 @@ typedef struct {
 
 // tracer.c: the colour that comes along path->ray. continued: a ray passed straight through.
 Color trace_path(Tracer *tracer, const Path *path, bool continued);
+
+// The next number in [0, 1] of POV-Ray's generator for crand.
+double tracer_random(uint32_t *state);
 
 // shade.c
 Color shade_hit(Tracer *tracer, const Path *path, const WorldHit *hit);
@@ -173,5 +187,13 @@ bool refract_trace(Tracer *tracer, const Surface *surface, const Finish *finish,
 
 // atmosphere.c
 Color atmosphere_sky(const Shading *shading, Vec3 dir, bool alpha);
+
+// fog.c: what is left at the ray's start of what is seen at that depth, and of light from there.
+Color fog_see(const Shading *shading, const Ray *ray, double depth, Color seen);
+Rgb fog_dim(const Shading *shading, const Ray *ray, double depth, Rgb light);
+
+// rainbow.c
+BowAngles rainbow_angles(const Rainbow *bow);
+Color rainbow_see(Tracer *tracer, const Ray *ray, double depth, Color seen);
 
 #endif

@@ -21,12 +21,15 @@ static Quality quality_of(int level) {
         .area_lights = level >= 5,
         .refraction = level >= 6,
         .reflection = level >= 8,
+        .air = level >= 9,
     };
 }
 
 static void prepare_objects(Shading *shading) {
     const Scene *scene = shading->scene;
     shading->objects = ARENA_ARRAY(shading->arena, ObjectInfo, scene->object_count);
+    size_t bodies = (size_t)scene->interior_count + scene->object_count;
+    shading->hollow = ARENA_ARRAY(shading->arena, bool, bodies);
     shading->all_opaque = true;
     for (uint32_t i = 0; i < scene->object_count; i++) {
         const Object *object = &scene->objects[i];
@@ -37,6 +40,8 @@ static void prepare_objects(Shading *shading) {
                         texture_is_opaque(scene, object->interior_texture));
         if (!object_is_tree(object) && !object->no_shadow && !info->opaque)
             shading->all_opaque = false;
+        // Objects of one body that do not agree: the last decides, as in POV-Ray.
+        shading->hollow[info->body] = object->hollow;
     }
 }
 
@@ -72,6 +77,9 @@ Shading *shading_create(const Scene *scene, const World *world, const TraceOptio
         if (scene->textures[i].layer_count > shading->layer_limit)
             shading->layer_limit = scene->textures[i].layer_count;
     prepare_lights(shading);
+    shading->bows = ARENA_ARRAY(arena, BowAngles, scene->rainbow_count);
+    for (uint32_t i = 0; i < scene->rainbow_count; i++)
+        shading->bows[i] = rainbow_angles(&scene->rainbows[i]);
     return shading;
 }
 
@@ -99,6 +107,23 @@ void tracer_destroy(Tracer *tracer) {
 
 RayStats tracer_stats(const Tracer *tracer) { return tracer->stats; }
 
+double tracer_random(uint32_t *state) {
+    *state = *state * 1812433253u + 12345u;
+    return (double)*state / 4294967295.0;
+}
+
+// What lies before the ray's end, as long as the ray is in the open or in hollow bodies.
+static Color see_through_air(Tracer *tracer, const Path *path, double depth, Color color) {
+    const Shading *shading = tracer->shading;
+    const Scene *scene = shading->scene;
+    if ((scene->fog_count == 0 && scene->rainbow_count == 0) || !shading->quality.air ||
+        !interior_hollow(path->inside, shading->hollow))
+        return color;
+    if (scene->rainbow_count > 0)
+        color = rainbow_see(tracer, &path->ray, depth, color);
+    return scene->fog_count > 0 ? fog_see(shading, &path->ray, depth, color) : color;
+}
+
 Color trace_path(Tracer *tracer, const Path *path, bool continued) {
     const Shading *shading = tracer->shading;
     const Settings *settings = &shading->scene->settings;
@@ -108,10 +133,11 @@ Color trace_path(Tracer *tracer, const Path *path, bool continued) {
     WorldHit hit;
     if (!world_intersect(shading->world, &path->ray, SHADE_MIN_DEPTH, INFINITY, path->kind,
                          &tracer->stats, &hit))
-        return atmosphere_sky(shading, path->ray.dir, path->alpha);
+        return see_through_air(tracer, path, SHADE_FAR,
+                               atmosphere_sky(shading, path->ray.dir, path->alpha));
     Path here = *path;
     here.level += continued ? 0 : 1;
-    return shade_hit(tracer, &here, &hit);
+    return see_through_air(tracer, path, hit.t, shade_hit(tracer, &here, &hit));
 }
 
 // The bodies around the start of a camera ray; all rays of a perspective camera share them.
@@ -155,7 +181,7 @@ Color tracer_trace(Tracer *tracer, const Ray *ray) {
         .kind = RAY_CAMERA,
         .alpha = shading->options.alpha,
     };
-    tracer->crand = tracer->area_jitter = grain_seed(ray);
+    tracer->crand = tracer->area_jitter = tracer->bow_jitter = grain_seed(ray);
     tracer->stats.primary++;
     Color color = trace_path(tracer, &path, false);
     color.filter = 0.0f;

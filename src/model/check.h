@@ -41,5 +41,6 @@ void check_transform(const Check *c, const FieldPath *up, const char *name, cons
 // check_texture.c
 void check_pigments(Check *c);
 void check_textures(const Check *c);
+void check_turbulence(const Check *c, const FieldPath *path, const Turbulence *turbulence);
 
 #endif

@@ -7,7 +7,7 @@
 
 enum { MAX_OCTAVES = 10 }; // POV-Ray's own limit
 
-static void check_turbulence(const Check *c, const FieldPath *path, const Turbulence *turbulence) {
+void check_turbulence(const Check *c, const FieldPath *path, const Turbulence *turbulence) {
     check_vec3(c, path, "amount", turbulence->amount);
     check_range(c, path, "octaves", turbulence->octaves, 1, MAX_OCTAVES);
     check_float(c, path, "lambda", turbulence->lambda);

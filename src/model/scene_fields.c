@@ -149,7 +149,7 @@ static const Field FOG_FIELDS[] = {
      .presence = FIELD_FLAGGED,
      AT(Fog, turbulence),
      .link = offsetof(Fog, has_turbulence),
-     .record = &TURBULENCE},
+     .record = &TURBULENCE_RECORD},
     FLOAT(Fog, turb_depth, "turb_depth"),
     END,
 };

@@ -41,7 +41,7 @@ static const Field TURBULENCE_FIELDS[] = {
     END,
 };
 static void default_turbulence(void *out) { *(Turbulence *)out = turbulence_default(); }
-static const Record TURBULENCE = {NULL, TURBULENCE_FIELDS, sizeof(Turbulence), default_turbulence,
+const Record TURBULENCE_RECORD = {NULL, TURBULENCE_FIELDS, sizeof(Turbulence), default_turbulence,
                                   NULL};
 
 static const Field CRACKLE_FIELDS[] = {
@@ -149,7 +149,7 @@ static const Field PIGMENT_FIELDS[] = {
      .presence = FIELD_FLAGGED,
      AT(Pigment, pattern.turbulence),
      .link = offsetof(Pigment, pattern.has_turbulence),
-     .record = &TURBULENCE},
+     .record = &TURBULENCE_RECORD},
     BOOL(Pigment, uv_mapping, "uv_mapping"),
     {.name = "quick_color",
      .type = FIELD_COLOR,

@@ -293,12 +293,13 @@ static void remarks(void **state) {
                  "Bounding=off\nContinue_Trace=on\nPost_Frame_Command=rm \"a;b\" ; c\n"
                  "Output_File_Type=N16\nContinue_Trace=off\n",
                  "+MB3");
-    static const bool warnings[] = {false, true, true, true, false};
-    assert_int_equal(o.remark_count, 5);
-    for (int i = 0; i < 5; i++)
+    static const bool warnings[] = {false, true, true, false};
+    assert_int_equal(o.remark_count, 4);
+    for (int i = 0; i < 4; i++)
         assert_int_equal(o.remarks[i].warning, warnings[i]);
-    assert_int_equal(o.remarks[2].loc.line, 3);
-    assert_null(o.remarks[4].loc.file);
+    assert_int_equal(o.remarks[1].loc.line, 3);
+    assert_null(o.remarks[3].loc.file);
+    assert_false(o.continue_trace);
     assert_int_equal(o.bits, 8);
 }
 

@@ -85,11 +85,10 @@ static void on_signal(int number) {
 }
 
 static void install_cleanup(void) {
-    static bool installed;
-    if (installed)
-        return;
-    installed = true;
-    atexit(remove_unfinished);
+    static bool registered;
+    if (!registered)
+        atexit(remove_unfinished);
+    registered = true;
     signal(SIGINT, on_signal);
     signal(SIGTERM, on_signal);
 }

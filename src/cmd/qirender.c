@@ -3,27 +3,47 @@
 // render -> file -> statistics.
 #include "base/console.h"
 #include "base/diag.h"
+#include "base/file.h"
 #include "base/progress.h"
 #include "base/version.h"
 #include "converter/convert.h"
 #include "options/animation.h"
 #include "render/render.h"
+#include "render/resume.h"
 
 #include <errno.h>
 #include <signal.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <strings.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+// The first time the tiles at work are finished; the second time nothing is.
 static void on_interrupt(int number) {
+    static volatile sig_atomic_t times;
     (void)number;
+    render_interrupted = 1;
+    if (times++ == 0)
+        return;
     static const char message[] = "\nqirender: interrupted, nothing written\n";
     ssize_t written = write(STDERR_FILENO, message, sizeof message - 1);
     (void)written;
     _exit(2);
+}
+
+// Says what is missing, and how to get it.
+_Noreturn static void end_interrupted(const RenderOptions *o, const char *output,
+                                      const RenderStats *s) {
+    fprintf(stderr, "\nqirender: interrupted at %.0f %%", 100.0 * s->share);
+    if (o->output_to_file)
+        fprintf(stderr, ", '%s' is not written", output);
+    fputs(s->kept ? "; the same command with +C goes on from there\n" : "\n", stderr);
+    if (o->state && !s->kept)
+        fprintf(stderr, "qirender: cannot keep what is finished in '%s'\n", o->state);
+    exit(2);
 }
 
 // A long render should not end with the news that its folder cannot be written.
@@ -80,6 +100,7 @@ static void print_statistics(const RenderOptions *o, const RenderStats *s, doubl
                   o->width, o->height, patch_method_name(o->method), s->threads,
                   s->threads == 1 ? "" : "s", rule);
     print_count("Pixels", s->pixels);
+    print_count("Pixels taken up", s->taken_up);
     print_count("Pixels supersampled", s->supersampled);
     print_share("Camera rays", s->samples, s->pixels, "a pixel");
     print_count("Reflected rays", r->reflected);
@@ -120,12 +141,23 @@ static void check_not_empty(const Scene *scene, const char *file) {
 }
 
 // One picture: a scene read, rendered and written.
-static void render_picture(const RenderOptions *o) {
+static void render_picture(RenderOptions *o, bool frame) {
     Arena *arena = arena_create();
     const char *output = options_output_path(o, arena, image_extension(o->format));
+    bool to_file = o->output_to_file && strcmp(output, "-") != 0;
     if (o->output_to_file)
         check_output(output, arena);
+    o->state = to_file ? arena_printf(arena, "%s.qi-state", output) : NULL;
+    if (frame && o->continue_trace && to_file && file_exists(output)) {
+        if (o->verbose)
+            console_print(CONSOLE_RENDER, "%s is there already\n", output);
+        arena_destroy(arena);
+        return;
+    }
 
+    // Writing a file takes over the signals: for each picture anew.
+    signal(SIGINT, on_interrupt);
+    signal(SIGTERM, on_interrupt);
     double start = progress_seconds();
     const Scene *scene =
         is_scene_file(o->input) ? scene_read(o->input, arena) : convert_scene(o, arena);
@@ -135,12 +167,16 @@ static void render_picture(const RenderOptions *o) {
     RenderStats stats;
     ImageWriteOptions write;
     Image *image = render_scene(scene, o, arena, &write, &stats);
+    if (!image)
+        end_interrupted(o, output, &stats);
     write.software = "qipov " QIPOV_VERSION;
     if (o->output_to_file)
         image_write(output, image, &write);
+    if (o->state)
+        resume_remove(o->state);
     if (o->verbose) {
         print_statistics(o, &stats, read_seconds);
-        if (o->output_to_file && strcmp(output, "-") != 0)
+        if (to_file)
             console_print(CONSOLE_RENDER, "%s\n", output);
     }
     arena_destroy(arena);
@@ -160,7 +196,7 @@ static void render_animation(const Animation *animation, RenderOptions *o) {
         if (o->verbose)
             console_print(CONSOLE_RENDER, "frame %ld of %d to %d, clock %g\n", number,
                           animation->first, animation->last, o->clock);
-        render_picture(o);
+        render_picture(o, true);
     }
 }
 
@@ -170,7 +206,7 @@ static void render(RenderOptions *o) {
     if (animation_of(o, &animation))
         render_animation(&animation, o);
     else
-        render_picture(o);
+        render_picture(o, false);
 }
 
 int main(int argc, char **argv) {
@@ -195,8 +231,6 @@ int main(int argc, char **argv) {
         fputs("qirender: error: no scene given (qirender scene.pov; qirender --help)\n", stderr);
         return 2;
     }
-    signal(SIGINT, on_interrupt);
-    signal(SIGTERM, on_interrupt);
     options.input = options_input_path(&options, arena);
     if (options.create_ini)
         options_write_ini(&options, options.create_ini);

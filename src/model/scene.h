@@ -459,6 +459,9 @@ typedef struct {
 // The scene is validated first. An object stands where it is in its tree; its index is not kept.
 void scene_write(const Scene *scene, const char *path, const SceneWriteOptions *options);
 
+// A number that two scenes share when their files would be the same (and hardly any others do).
+uint64_t scene_hash(const Scene *scene);
+
 // Reads and validates; dies with file:line:col for a syntax error, with the field's name for the
 // rest. Objects are numbered as a walk of the trees meets them: a parent, then its children. All
 // memory in arena.

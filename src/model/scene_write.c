@@ -452,3 +452,30 @@ void scene_write(const Scene *scene, const char *path, const SceneWriteOptions *
     if (!good)
         diag_rethrow(message);
 }
+
+// ---- a hash -----------------------------------------------------------------------------------
+
+// FNV-1a of what is written to the stream.
+static ssize_t hash_bytes(void *cookie, const char *bytes, size_t size) {
+    uint64_t *hash = cookie, h = *hash;
+    for (size_t i = 0; i < size; i++)
+        h = (h ^ (unsigned char)bytes[i]) * 0x100000001b3U;
+    *hash = h;
+    return (ssize_t)size;
+}
+
+uint64_t scene_hash(const Scene *scene) {
+    uint64_t text = 0xcbf29ce484222325U, numbers = text;
+    const cookie_io_functions_t hashing = {.write = hash_bytes};
+    const SceneWriteOptions options = {.binary = true};
+    Writer w = {.scene = scene, .path = "-", .options = &options, .scratch = arena_create()};
+    w.out = fopencookie(&text, "w", hashing);
+    w.binary = fopencookie(&numbers, "w", hashing);
+    if (!w.out || !w.binary)
+        die("out of memory");
+    write_document(&w, "\"\"");
+    fclose(w.out);
+    fclose(w.binary);
+    arena_destroy(w.scratch);
+    return text ^ (numbers * 0x9e3779b97f4a7c15U);
+}

@@ -71,9 +71,11 @@ typedef struct {
     bool cyclic;
     double subset_start, subset_end; // numbers of frames, or shares below 1; < 0: not given
     int frame_step;
-    OptionFrame frame; // the one to render; zeroes: no animation
-    int version;       // +MV x 100; 0: not given
-    int threads;       // +WT; 0: all cores
+    OptionFrame frame;   // the one to render; zeroes: no animation
+    int version;         // +MV x 100; 0: not given
+    int threads;         // +WT; 0: all cores
+    bool continue_trace; // +C: take up what an interrupted run has kept
+    const char *state;   // where a run keeps its finished tiles, set by the program; NULL: nowhere
     bool verbose, display, pause;
     bool console[CONSOLE_COUNT];             // is the stream shown?
     const char *console_file[CONSOLE_COUNT]; // a copy of it; NULL: none

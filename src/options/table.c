@@ -180,14 +180,6 @@ static bool apply_include_ini(Parse *parse, const OptionRow *row, bool on, const
     return option_ini(parse, value);
 }
 
-static bool apply_continue(Parse *parse, const OptionRow *row, bool on, const char *value) {
-    (void)row;
-    if (on && (!*value || option_truth(value)))
-        option_remark(parse, true,
-                      "Continue_Trace: an interrupted picture is rendered from its start");
-    return true;
-}
-
 static bool apply_command(Parse *parse, const OptionRow *row, bool on, const char *value) {
     (void)on;
     if (*value)
@@ -399,6 +391,8 @@ const OptionRow option_rows[] = {
      .help = "threads (0: as many as there are cores); the picture is the same"},
     {OPTION_SPECIAL, "BS", "Render_Block_Size", NULL, "n", DRAWS, .apply = apply_block_size,
      .help = "side of a tile (32); method 1 of anti-aliasing depends on it"},
+    {OPTION_FLAG, "C", "Continue_Trace", "continue", NULL, IN_ALL, FIELD(continue_trace),
+     .help = "take up a render that was interrupted; of an animation, frames that are there stay"},
     {OPTION_FLAG, "V", "Verbose", NULL, NULL, IN_ALL, FIELD(verbose),
      .help = "progress and statistics (default); -V silent"},
     {OPTION_SPECIAL, "D", NULL, NULL, NULL, IN_ALL, .apply = apply_display,
@@ -445,7 +439,6 @@ const OptionRow option_rows[] = {
 
     {OPTION_INT, NULL, "Bits_Per_Colour", NULL, "n", DRAWS, FIELD(bits), CLIP(5, 16)},
     {OPTION_SPECIAL, NULL, "Include_Ini", NULL, "name", IN_ALL, .apply = apply_include_ini},
-    {OPTION_SPECIAL, "C", "Continue_Trace", NULL, NULL, IN_ALL, .apply = apply_continue},
     {OPTION_SPECIAL, "TH", "Dither", NULL, NULL, IN_ALL, .apply = apply_dither},
     COMMAND("Pre_Scene_Command"),
     COMMAND("Pre_Frame_Command"),

@@ -6,6 +6,7 @@
 #include "base/diag.h"
 #include "base/progress.h"
 #include "render/film.h"
+#include "render/resume.h"
 #include "render/trace.h"
 
 #include <limits.h>
@@ -100,16 +101,58 @@ typedef struct {
     PixelRect area;
     int block, across, count;
     Color *picture;
+    Resume *resume; // NULL: nothing is kept
     Progress progress;
 } Job;
 
-static PixelRect tile_at(const Job *job, int i) {
+volatile sig_atomic_t render_interrupted;
+
+static PixelRect tile_at(const void *context, int i) {
+    const Job *job = context;
     PixelRect t = {.left = job->area.left + i % job->across * job->block,
                    .top = job->area.top + i / job->across * job->block};
     int right = job->area.right - t.left, bottom = job->area.bottom - t.top;
     t.right = t.left + (right < job->block ? right : job->block);
     t.bottom = t.top + (bottom < job->block ? bottom : job->block);
     return t;
+}
+
+// What decides on the colours of a tile beside the scene.
+static uint64_t identity_of(const Scene *scene, const RenderOptions *o) {
+    const double facts[] = {o->width,           o->height,          o->start_row,
+                            o->end_row,         o->start_column,    o->end_column,
+                            o->block_size,      o->antialias,       o->antialias_threshold,
+                            o->sampling_method, o->antialias_depth, o->jitter,
+                            o->jitter_amount,   o->antialias_gamma, o->quality,
+                            o->alpha,           o->method,          o->tolerance};
+    uint64_t hash = scene_hash(scene);
+    const unsigned char *bytes = (const unsigned char *)facts;
+    for (size_t i = 0; i < sizeof facts; i++)
+        hash = (hash ^ bytes[i]) * 0x100000001b3U;
+    return hash;
+}
+
+static void begin_resume(Job *job) {
+    const RenderOptions *o = job->options;
+    if (!o->state)
+        return;
+    const ResumeJob resume = {.identity = identity_of(job->scene, o),
+                              .width = o->width,
+                              .tile_count = job->count,
+                              .tile = tile_at,
+                              .context = job,
+                              .picture = job->picture};
+    job->resume = resume_create(o->state, &resume, o->continue_trace);
+}
+
+// What is finished stays for the next run.
+static void end_resume(Job *job, RenderStats *stats) {
+    stats->interrupted = render_interrupted;
+    stats->share = (double)job->progress.done / (double)job->progress.total;
+    if (!job->resume)
+        return;
+    stats->kept = render_interrupted && resume_keep(job->resume);
+    resume_destroy(job->resume);
 }
 
 static void render_tiles(Job *job, RenderStats *stats) {
@@ -123,9 +166,19 @@ static void render_tiles(Job *job, RenderStats *stats) {
 #pragma omp for schedule(dynamic, 1)
         for (int i = 0; i < job->count; i++) {
             PixelRect tile = tile_at(job, i);
-            sampler_tile(sampler, tile, trace_with, tracer, job->picture);
-            progress_add(&job->progress,
-                         (uint64_t)(tile.right - tile.left) * (uint64_t)(tile.bottom - tile.top));
+            if (render_interrupted)
+                continue;
+            uint64_t pixels =
+                (uint64_t)(tile.right - tile.left) * (uint64_t)(tile.bottom - tile.top);
+            if (job->resume && resume_has(job->resume, i)) {
+#pragma omp atomic
+                stats->taken_up += pixels;
+            } else {
+                sampler_tile(sampler, tile, trace_with, tracer, job->picture);
+                if (job->resume)
+                    resume_tile(job->resume, i);
+            }
+            progress_add(&job->progress, pixels);
         }
 #pragma omp critical(render_stats)
         {
@@ -196,15 +249,17 @@ Image *render_scene(const Scene *scene, const RenderOptions *o, Arena *arena,
             stats->threads = job.count;
         job.progress =
             progress_begin("rendering", stats->pixels, o->verbose && o->console[CONSOLE_RENDER]);
+        begin_resume(&job);
         render_tiles(&job, stats);
         progress_end(&job.progress);
+        end_resume(&job, stats);
     }
     stats->trace_seconds = progress_seconds() - start;
 
     // Develop the film.
     Film film =
         film_create(&scene->settings, o->format, o->bits, o->grayscale, o->alpha, o->file_gamma);
-    Image *image = develop(&film, job.picture, o, arena);
+    Image *image = render_interrupted ? NULL : develop(&film, job.picture, o, arena);
     *write = (ImageWriteOptions){.format = o->format,
                                  .bits = film.bits,
                                  .compressed = o->compressed,

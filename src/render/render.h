@@ -10,6 +10,8 @@
 #include "render/sample.h"
 #include "render/world.h"
 
+#include <signal.h>
+
 typedef struct {
     RayStats rays;
     uint64_t pixels, samples; // samples: camera rays traced
@@ -17,6 +19,10 @@ typedef struct {
     uint64_t patches, memory; // bytes of the prepared world
     double prepare_seconds, trace_seconds;
     int threads;
+    uint64_t taken_up; // pixels that an earlier run had finished
+    bool interrupted;  // by render_interrupted
+    double share;      // then: of the area that is finished
+    bool kept;         // then: what is finished is in options->state
 } RenderStats;
 
 // Dies with a message when the picture is too small or too large for this machine, or when the
@@ -26,9 +32,15 @@ void render_check(const RenderOptions *options);
 // The part of the picture to render; empty when it ends before it starts. After render_check.
 PixelRect render_area(const RenderOptions *options);
 
+// Ends render_scene when the tiles at work are finished. May be called by a signal handler; there
+// is no way back.
+void render_interrupt(void);
+
 // Renders scene at options' size; the pixels are encoded and quantised for the output format
 // (film.h) and live in arena, and *write gets what the file's header needs. What lies outside the
-// area is black, and opaque even with +UA, as in POV-Ray.
+// area is black, and opaque even with +UA, as in POV-Ray. With options->state long
+// renders keep their finished tiles in that file (resume.h), which the caller removes when the
+// picture is written. NULL when the render was interrupted.
 Image *render_scene(const Scene *scene, const RenderOptions *options, Arena *arena,
                     ImageWriteOptions *write, RenderStats *stats);
 

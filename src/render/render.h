@@ -32,9 +32,8 @@ void render_check(const RenderOptions *options);
 // The part of the picture to render; empty when it ends before it starts. After render_check.
 PixelRect render_area(const RenderOptions *options);
 
-// Ends render_scene when the tiles at work are finished. May be called by a signal handler; there
-// is no way back.
-void render_interrupt(void);
+// Set by a signal handler: render_scene ends when the tiles at work are finished.
+extern volatile sig_atomic_t render_interrupted;
 
 // Renders scene at options' size; the pixels are encoded and quantised for the output format
 // (film.h) and live in arena, and *write gets what the file's header needs. What lies outside the

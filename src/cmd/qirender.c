@@ -140,6 +140,25 @@ static void check_not_empty(const Scene *scene, const char *file) {
             file);
 }
 
+// The picture, and its further channels: in one EXR file, or in one beside it.
+static void write_output(const RenderOptions *o, const char *output, const Image *image,
+                         const ImageWriteOptions *write, const RenderStats *stats) {
+    if (!stats->layers || o->format != IMAGE_EXR)
+        image_write(output, image, write);
+    if (!stats->layers)
+        return;
+    Arena *scratch = arena_create();
+    const char *path = output, *dot = strrchr(output, '.'), *slash = strrchr(output, '/');
+    size_t stem = dot && (!slash || dot > slash) ? (size_t)(dot - output) : strlen(output);
+    if (o->format != IMAGE_EXR)
+        path = strcmp(output, "-") == 0 ? "aov.exr"
+                                        : arena_printf(scratch, "%.*s.aov.exr", (int)stem, output);
+    image_write_layers(path, stats->layers, write->software);
+    if (o->verbose && path != output)
+        console_print(CONSOLE_RENDER, "%s\n", path);
+    arena_destroy(scratch);
+}
+
 // One picture: a scene read, rendered and written.
 static void render_picture(RenderOptions *o, bool frame) {
     Arena *arena = arena_create();
@@ -171,7 +190,7 @@ static void render_picture(RenderOptions *o, bool frame) {
         end_interrupted(o, output, &stats);
     write.software = "qipov " QIPOV_VERSION;
     if (o->output_to_file)
-        image_write(output, image, &write);
+        write_output(o, output, image, &write, &stats);
     if (o->state)
         resume_remove(o->state);
     if (o->verbose) {

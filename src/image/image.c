@@ -75,10 +75,24 @@ static bool encode(const Image *image, const ImageWriteOptions *options, FILE *o
     }
 }
 
-void image_write(const char *path, const Image *image, const ImageWriteOptions *options) {
+// What goes into a file: a picture, or layers.
+typedef struct {
+    const Image *image;
+    const ImageWriteOptions *options;
+    const ImageLayers *layers; // NULL: the picture
+} Content;
+
+static bool encode_content(const Content *c, FILE *out, char why[OIIO_WHY]) {
+    if (!c->layers)
+        return encode(c->image, c->options, out, why);
+    why[0] = '\0';
+    return oiio_library()->encode_layers(c->layers, c->options->software, out, why);
+}
+
+static void write_content(const char *path, const Content *content) {
     char why[OIIO_WHY];
     if (strcmp(path, "-") == 0) {
-        bool ok = encode(image, options, stdout, why);
+        bool ok = encode_content(content, stdout, why);
         if (!ok || fflush(stdout) != 0)
             die("cannot write the picture to standard output: %s",
                 !ok && why[0] ? why : strerror(errno));
@@ -86,12 +100,23 @@ void image_write(const char *path, const Image *image, const ImageWriteOptions *
     }
     OutputFile *out = file_begin(path);
     errno = 0;
-    if (!encode(image, options, file_stream(out), why)) {
+    if (!encode_content(content, file_stream(out), why)) {
         int error = errno;
         file_abandon(out);
         die("cannot write '%s': %s", path, why[0] ? why : strerror(error));
     }
     file_commit(out);
+}
+
+void image_write(const char *path, const Image *image, const ImageWriteOptions *options) {
+    const Content content = {image, options, NULL};
+    write_content(path, &content);
+}
+
+void image_write_layers(const char *path, const ImageLayers *layers, const char *software) {
+    const ImageWriteOptions options = {.software = software};
+    const Content content = {NULL, &options, layers};
+    write_content(path, &content);
 }
 
 // The most pixels a picture to be read may have: 2^28, 16,384 x 16,384. A header of a few bytes can

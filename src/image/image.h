@@ -47,6 +47,13 @@ ImageWriteOptions image_write_options_default(void); // PNG, 8 bits, sRGB
 // "-" writes to standard output. Dies with a message on failure; the file appears whole or not at
 // all.
 void image_write(const char *path, const Image *image, const ImageWriteOptions *options);
+// Any number of named channels, as floats: an EXR file of 32 bits. Dies and appears as image_write.
+typedef struct {
+    int width, height, channels;
+    const char *const *names; // "Z", "N.X", ...
+    float *pixels;            // row by row, channels together
+} ImageLayers;
+void image_write_layers(const char *path, const ImageLayers *layers, const char *software);
 // Dies with a message when the file cannot be read. More than four channels: the first four.
 Image *image_read(Arena *arena, const char *path);
 

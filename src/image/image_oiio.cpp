@@ -73,8 +73,10 @@ void describe(OIIO::ImageSpec &spec, const ImageWriteOptions &options) {
     }
     if (options.format == IMAGE_TGA)
         spec.attribute("compression", options.compressed ? "rle" : "none");
-    if (options.format == IMAGE_EXR)
+    if (options.format == IMAGE_EXR) {
         spec.attribute("compression", "zip");
+        spec.attribute("DateTime", ""); // as in encode_exr
+    }
     if (options.format == IMAGE_TIFF)
         spec.attribute("compression", "zip");
     if (options.format == IMAGE_JPEG) {
@@ -119,18 +121,39 @@ bool encode(const Image &image, const ImageWriteOptions &options, std::vector<un
     return ok;
 }
 
+bool encode_exr(const ImageLayers &layers, const char *software, std::vector<unsigned char> &bytes,
+                std::string &error) {
+    std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create("openexr");
+    OIIO::ImageSpec spec(layers.width, layers.height, layers.channels, OIIO::TypeFloat);
+    spec.channelnames.assign(layers.names, layers.names + layers.channels);
+    spec.attribute("compression", "zip");
+    spec.attribute("DateTime", ""); // else it is the hour: the same picture is the same bytes
+    if (software)
+        spec.attribute("Software", software);
+    OIIO::Filesystem::IOVecOutput proxy(bytes);
+    if (!output || !output->set_ioproxy(&proxy) || !output->open("picture", spec)) {
+        error = output ? output->geterror() : OIIO::geterror();
+        return false;
+    }
+    bool ok = output->write_image(OIIO::TypeFloat, layers.pixels);
+    ok = output->close() && ok;
+    if (!ok)
+        error = output->geterror();
+    return ok;
+}
+
 OIIO::ImageBuf wrap(const Image &image) {
     return OIIO::ImageBuf(
         OIIO::ImageSpec(image.width, image.height, image.channels, OIIO::TypeFloat), image.pixels);
 }
 
-bool encode_to(const Image *image, const ImageWriteOptions *options, FILE *out,
-               char why[OIIO_WHY]) noexcept {
+// The bytes that `fill` encodes, to out.
+template <class Fill> bool write_bytes(FILE *out, char why[OIIO_WHY], Fill fill) {
     why[0] = '\0';
     try {
         std::vector<unsigned char> bytes;
         std::string error;
-        if (!encode(*image, *options, bytes, error)) {
+        if (!fill(bytes, error)) {
             explain(why, error);
             return false;
         }
@@ -139,6 +162,20 @@ bool encode_to(const Image *image, const ImageWriteOptions *options, FILE *out,
         explain(why, failure.what());
         return false;
     }
+}
+
+bool encode_to(const Image *image, const ImageWriteOptions *options, FILE *out,
+               char why[OIIO_WHY]) noexcept {
+    return write_bytes(out, why, [=](std::vector<unsigned char> &bytes, std::string &error) {
+        return encode(*image, *options, bytes, error);
+    });
+}
+
+bool encode_layers_to(const ImageLayers *layers, const char *software, FILE *out,
+                      char why[OIIO_WHY]) noexcept {
+    return write_bytes(out, why, [=](std::vector<unsigned char> &bytes, std::string &error) {
+        return encode_exr(*layers, software, bytes, error);
+    });
 }
 
 OiioReader *open_reader(const char *path, int *width, int *height, int *channels, int *bits,
@@ -218,5 +255,5 @@ bool color_values(const Image *values, Image *colors, char why[OIIO_WHY]) noexce
 
 } // namespace
 
-const OiioTable oiio_table = {encode_to,    open_reader,    read_pixels,
-                              close_reader, compare_images, color_values};
+const OiioTable oiio_table = {encode_to,    encode_layers_to, open_reader, read_pixels,
+                              close_reader, compare_images,   color_values};

@@ -31,6 +31,9 @@ typedef struct {
     bool (*encode)(const Image *image, const ImageWriteOptions *options, FILE *out,
                    char why[OIIO_WHY]) OIIO_BORDER;
 
+    bool (*encode_layers)(const ImageLayers *layers, const char *software, FILE *out,
+                          char why[OIIO_WHY]) OIIO_BORDER; // likewise, EXR
+
     OiioReader *(*open)(const char *path, int *width, int *height, int *channels, int *bits,
                         char why[OIIO_WHY])OIIO_BORDER; // NULL: why says
     // The first `channels` channels of every pixel, then closes in any case.

@@ -36,6 +36,18 @@ typedef struct {
     bool warning;
 } OptionRemark;
 
+// ORDER aov (names in table.c): what --aov writes of the nearest hit of each pixel's middle
+typedef enum {
+    AOV_DEPTH,
+    AOV_NORMAL,
+    AOV_UV,
+    AOV_PATCH,
+    AOV_STEPS,
+    AOV_BOUND,
+    AOV_OBJECT,
+    AOV_COUNT,
+} AovKind;
+
 typedef struct {
     const char *input;   // +I, Input_File_Name=, or a bare name ending in .pov or .json; NULL: none
     const char *output;  // +O as given; NULL: beside the input; qicompare: a folder
@@ -83,6 +95,7 @@ typedef struct {
     bool append_file;                        // to files that are there
     PatchMethod method;
     double tolerance; // --tolerance, relative to the patch (PatchSetOptions)
+    unsigned aovs;    // --aov: bit 1 << AovKind each
     bool strict;
     bool binary; // pov2qi
     bool help, show_version;

@@ -258,6 +258,26 @@ static bool apply_method(Parse *parse, const OptionRow *row, bool on, const char
     return false;
 }
 
+static bool apply_aov(Parse *parse, const OptionRow *row, bool on, const char *value) {
+    // ORDER aov
+    static const char *const names[AOV_COUNT] = {"depth", "normal", "uv",    "patch",
+                                                 "steps", "bound",  "object"};
+    (void)row;
+    (void)on;
+    while (*value) {
+        size_t length = strcspn(value, ",");
+        int kind = 0;
+        while (kind < AOV_COUNT &&
+               (strlen(names[kind]) != length || strncmp(names[kind], value, length) != 0))
+            kind++;
+        if (kind == AOV_COUNT)
+            return complain(parse, "the channels are depth,normal,uv,patch,steps,bound,object");
+        parse->options->aovs |= 1u << kind;
+        value += length + (value[length] == ',');
+    }
+    return true;
+}
+
 static bool apply_tolerance(Parse *parse, const OptionRow *row, bool on, const char *value) {
     (void)row, (void)on;
     double tolerance;
@@ -375,6 +395,9 @@ const OptionRow option_rows[] = {
      .help = "how patches are met: qi (default), qi-paper, facets (POV-Ray's triangles)"},
     {OPTION_SPECIAL, NULL, NULL, "tolerance", "x", DRAWS, .apply = apply_tolerance,
      .help = "the largest error of a hit, as a share of its patch's diameter (1e-9)"},
+    {OPTION_SPECIAL, NULL, NULL, "aov", "list", IN_QIRENDER, .apply = apply_aov,
+     .help = "more channels, to NAME.aov.exr (with +FE to the picture): depth,normal,uv,patch,"
+             "steps,bound,object"},
 
     HEADING("Comparing"),
     {OPTION_NUMBER, NULL, NULL, "fail", "x", IN_QICOMPARE, FIELD(fail), CLIP(0, 1e9),

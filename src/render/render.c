@@ -5,6 +5,7 @@
 
 #include "base/diag.h"
 #include "base/progress.h"
+#include "render/aov.h"
 #include "render/film.h"
 #include "render/resume.h"
 #include "render/trace.h"
@@ -265,6 +266,8 @@ Image *render_scene(const Scene *scene, const RenderOptions *o, Arena *arena,
                                  .compressed = o->compressed,
                                  .gamma = film.header_gamma,
                                  .srgb = film.header_srgb};
+    if (image && o->aovs)
+        stats->layers = aov_render(scene, world, o, job.picture, arena);
     arena_destroy(scratch);
     shading_destroy(shading);
     world_destroy(world);

@@ -19,10 +19,11 @@ typedef struct {
     uint64_t patches, memory; // bytes of the prepared world
     double prepare_seconds, trace_seconds;
     int threads;
-    uint64_t taken_up; // pixels that an earlier run had finished
-    bool interrupted;  // by render_interrupted
-    double share;      // then: of the area that is finished
-    bool kept;         // then: what is finished is in options->state
+    ImageLayers *layers; // options->aovs (aov.h), in render_scene's arena; NULL: none asked for
+    uint64_t taken_up;   // pixels that an earlier run had finished
+    bool interrupted;    // by render_interrupted
+    double share;        // then: of the area that is finished
+    bool kept;           // then: what is finished is in options->state
 } RenderStats;
 
 // Dies with a message when the picture is too small or too large for this machine, or when the

@@ -43,7 +43,7 @@ bench base converter image model options patch kernel render bench
 cmd base bench converter image model options patch render report cmd
 tests base bench converter image kernel model options patch render report shape texture tests
 ROOMS
-xargs grep -nE '^ *# *include +"' <"$work/all" | awk -v arrows="$work/arrows" '
+xargs grep -HnE '^ *# *include +"' <"$work/all" | awk -v arrows="$work/arrows" '
     BEGIN {
         while ((getline line <arrows) > 0) {
             count = split(line, word, " ")

@@ -5,7 +5,9 @@
 #include "base/arena.h"
 #include "base/array.h"
 #include "patch/accel.h"
+#include "patch/clipping.h"
 #include "patch/facets.h"
+#include "patch/newton.h"
 #include "patch/paper.h"
 #include "patch/query.h"
 
@@ -13,7 +15,8 @@
 #include <string.h>
 
 // ORDER patch_method
-static const char *const method_names[METHOD_COUNT] = {"qi", "qi-paper", "facets"};
+static const char *const method_names[METHOD_COUNT] = {"qi", "qi-paper", "clipping", "newton",
+                                                       "facets"};
 
 struct PatchSet {
     PatchSetOptions options;
@@ -24,6 +27,8 @@ struct PatchSet {
     // The method's own, the others are NULL.
     Accel *accel;
     Paper *paper;
+    Clipping *clipping;
+    Newton *newton;
     Facets *facets;
 };
 
@@ -87,6 +92,12 @@ void patchset_commit(PatchSet *set) {
     case METHOD_QI_PAPER:
         set->paper = paper_create(set->arena, defs, count, set->options.tolerance);
         break;
+    case METHOD_CLIPPING:
+        set->clipping = clipping_create(set->arena, defs, count, set->options.tolerance);
+        break;
+    case METHOD_NEWTON:
+        set->newton = newton_create(set->arena, defs, count, set->options.tolerance);
+        break;
     case METHOD_FACETS:
         set->facets = facets_create(set->arena, defs, count);
         break;
@@ -109,6 +120,10 @@ static void ask(const PatchSet *set, Query *query) {
         accel_query(set->accel, query);
     else if (set->paper)
         paper_query(set->paper, query);
+    else if (set->clipping)
+        clipping_query(set->clipping, query);
+    else if (set->newton)
+        newton_query(set->newton, query);
     else if (set->facets)
         facets_query(set->facets, query);
 }

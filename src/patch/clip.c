@@ -213,7 +213,7 @@ bool clip_step(ClipNet *net, double slack, double *kept) {
 
 void clip_restrict(const ClipNet *whole, BezierRect rect, ClipNet *out) {
     int rows = whole->rows, columns = whole->columns;
-    size_t count = (size_t)((rows + 1) * (columns + 1));
+    size_t count = (size_t)(rows + 1) * (size_t)(columns + 1);
     out->rows = rows;
     out->columns = columns;
     out->turned = false;

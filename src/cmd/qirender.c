@@ -164,7 +164,7 @@ static void render_picture(RenderOptions *o, bool frame) {
     Arena *arena = arena_create();
     const char *output = options_output_path(o, arena, image_extension(o->format));
     bool to_file = o->output_to_file && strcmp(output, "-") != 0;
-    if (o->output_to_file)
+    if (o->output_to_file && o->pixel[0] < 0)
         check_output(output, arena);
     o->state = to_file ? arena_printf(arena, "%s.qi-state", output) : NULL;
     if (frame && o->continue_trace && to_file && file_exists(output)) {
@@ -183,6 +183,11 @@ static void render_picture(RenderOptions *o, bool frame) {
     double read_seconds = progress_seconds() - start;
     check_not_empty(scene, o->input);
 
+    if (o->pixel[0] >= 0) {
+        render_pixel(scene, o, stdout);
+        arena_destroy(arena);
+        return;
+    }
     RenderStats stats;
     ImageWriteOptions write;
     Image *image = render_scene(scene, o, arena, &write, &stats);

@@ -39,6 +39,7 @@ RenderOptions options_default(void) {
         .initial_frame = FRAME_NONE,
         .final_frame = FRAME_NONE,
         .final_clock = 1.0,
+        .pixel = {-1, -1},
         .subset_start = -1,
         .subset_end = -1,
         .frame_step = 1,

@@ -95,6 +95,7 @@ typedef struct {
     bool append_file;                        // to files that are there
     PatchMethod method;
     double tolerance; // --tolerance, relative to the patch (PatchSetOptions)
+    int pixel[2];     // --pixel: column and row from 0; -1: none
     unsigned aovs;    // --aov: bit 1 << AovKind each
     bool strict;
     bool binary; // pov2qi

@@ -258,6 +258,18 @@ static bool apply_method(Parse *parse, const OptionRow *row, bool on, const char
     return false;
 }
 
+static bool apply_pixel(Parse *parse, const OptionRow *row, bool on, const char *value) {
+    (void)row;
+    (void)on;
+    char rest;
+    int x, y;
+    if (sscanf(value, "%d,%d%c", &x, &y, &rest) != 2 || x < 0 || y < 0)
+        return complain(parse, "column,row, both counted from 0");
+    parse->options->pixel[0] = x;
+    parse->options->pixel[1] = y;
+    return true;
+}
+
 static bool apply_aov(Parse *parse, const OptionRow *row, bool on, const char *value) {
     // ORDER aov
     static const char *const names[AOV_COUNT] = {"depth", "normal", "uv",    "patch",
@@ -399,6 +411,8 @@ const OptionRow option_rows[] = {
     {OPTION_SPECIAL, NULL, NULL, "aov", "list", IN_QIRENDER, .apply = apply_aov,
      .help = "more channels, to NAME.aov.exr (with +FE to the picture): depth,normal,uv,patch,"
              "steps,bound,object"},
+    {OPTION_SPECIAL, NULL, NULL, "pixel", "x,y", IN_QIRENDER, .apply = apply_pixel,
+     .help = "instead of a picture, print how this pixel comes about: rays, hits, nets, lights"},
 
     HEADING("Comparing"),
     {OPTION_NUMBER, NULL, NULL, "fail", "x", IN_QICOMPARE, FIELD(fail), CLIP(0, 1e9),

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The lights of a scene on a layer (facts: rendering 4.5, 5).
 #include "render/shading.h"
+#include "render/story.h"
 
 #include <math.h>
 
@@ -119,6 +120,12 @@ static void find_shadow(Tracer *tracer, const Surface *surface, uint32_t index, 
     s->shadow_done = true;
 }
 
+static void tell(const Tracer *tracer, const LitLayer *layer, uint32_t index, const LightSample *s,
+                 const char *fate, Rgb added) {
+    if (tracer->story)
+        story_light(tracer->story, layer->surface->path, index, s, fate, added);
+}
+
 static void add_light(Tracer *tracer, const LitLayer *layer, uint32_t index, Rgb *color) {
     const Shading *shading = tracer->shading;
     const Surface *surface = layer->surface;
@@ -130,18 +137,27 @@ static void add_light(Tracer *tracer, const LitLayer *layer, uint32_t index, Rgb
         if (spread) // attenuated point by point
             s->color = light->color;
     }
-    if (light_is_black(s->color))
+    if (light_is_black(s->color)) {
+        tell(tracer, layer, index, s, "does not reach it", (Rgb){0});
         return;
+    }
     bool dark = false, behind = !spread && light_behind(layer, s->dir, &dark);
-    if (dark)
+    if (dark) {
+        tell(tracer, layer, index, s, "is behind the surface", (Rgb){0});
         return;
+    }
     find_shadow(tracer, surface, index, s);
-    if (light_is_black(s->color))
+    if (light_is_black(s->color)) {
+        tell(tracer, layer, index, s, "is hidden", (Rgb){0});
         return;
+    }
+    Rgb before = *color;
     if (spread)
         area_shine(tracer, layer, index, s, color);
     else
         light_shine(tracer, layer, light->shadowless, s, behind, color);
+    tell(tracer, layer, index, s, "shines",
+         rgb(color->r - before.r, color->g - before.g, color->b - before.b));
 }
 
 void lights_add(Tracer *tracer, const LitLayer *layer, Rgb *color) {

@@ -8,6 +8,7 @@
 #include "render/aov.h"
 #include "render/film.h"
 #include "render/resume.h"
+#include "render/story.h"
 #include "render/trace.h"
 
 #include <limits.h>
@@ -272,4 +273,29 @@ Image *render_scene(const Scene *scene, const RenderOptions *o, Arena *arena,
     shading_destroy(shading);
     world_destroy(world);
     return image;
+}
+
+void render_pixel(const Scene *scene, const RenderOptions *o, FILE *out) {
+    int x = o->pixel[0], y = o->pixel[1];
+    if (x >= o->width || y >= o->height)
+        die("pixel %d,%d lies outside the picture: it has %d x %d, counted from 0", x, y, o->width,
+            o->height);
+    PatchSetOptions patches = patchset_options_default();
+    patches.method = o->method;
+    patches.tolerance = o->tolerance;
+    World *world = world_create(scene, &patches);
+    const TraceOptions trace = {.quality = o->quality, .alpha = o->alpha};
+    Shading *shading = shading_create(scene, world, &trace);
+    Color color = story_of_pixel(scene, shading, o->width, o->height, x, y, out);
+    Film film =
+        film_create(&scene->settings, o->format, o->bits, o->grayscale, o->alpha, o->file_gamma);
+    float values[4];
+    film_develop(&film, color, values);
+    fputs("in the file, without anti-aliasing:", out);
+    double full = film.floats ? 1.0 : (double)((1u << film.bits) - 1u);
+    for (int i = 0; i < film_channels(&film); i++)
+        fprintf(out, " %.9g", (double)values[i] * full);
+    putc('\n', out);
+    shading_destroy(shading);
+    world_destroy(world);
 }

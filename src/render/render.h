@@ -11,6 +11,7 @@
 #include "render/world.h"
 
 #include <signal.h>
+#include <stdio.h>
 
 typedef struct {
     RayStats rays;
@@ -35,6 +36,10 @@ PixelRect render_area(const RenderOptions *options);
 
 // Set by a signal handler: render_scene ends when the tiles at work are finished.
 extern volatile sig_atomic_t render_interrupted;
+
+// Prints how the pixel options->pixel comes about, by one ray through its middle. Dies when it lies
+// outside the picture.
+void render_pixel(const Scene *scene, const RenderOptions *options, FILE *out);
 
 // Renders scene at options' size; the pixels are encoded and quantised for the output format
 // (film.h) and live in arena, and *write gets what the file's header needs. What lies outside the

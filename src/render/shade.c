@@ -3,6 +3,7 @@
 // with its ambient, emission and lights, as long as something shines through; then what is seen
 // through all of them; then what each layer reflects.
 #include "render/shading.h"
+#include "render/story.h"
 
 #include <math.h>
 
@@ -62,7 +63,10 @@ static void shade_layer(Tracer *tracer, const Surface *surface, const TexturePoi
         LayerReflection reflection = {.weight = surface->path->weight * layers->translucency};
         reflect_layer(shading, surface, lit.finish, lit.normal, lit.color, &reflection);
         reflectivity = reflection.reflectivity;
-        layers->color = rgb_add(layers->color, rgb_mul(layer_light(tracer, &lit), layers->through));
+        Rgb light = layer_light(tracer, &lit);
+        if (tracer->story)
+            story_layer(tracer->story, surface->path, index, c, lit.opacity, reflectivity, light);
+        layers->color = rgb_add(layers->color, rgb_mul(light, layers->through));
         if (reflectivity.r != 0.0f || reflectivity.g != 0.0f || reflectivity.b != 0.0f)
             tracer->reflections[layers->end++] = reflection;
     }

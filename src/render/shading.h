@@ -90,6 +90,8 @@ typedef struct {
     const Finish *finish;
 } LayerReflection;
 
+typedef struct Story Story; // story.h
+
 struct Tracer {
     const Shading *shading;
     RayStats stats;
@@ -104,6 +106,7 @@ struct Tracer {
     bool start_known;
     InteriorList start_nodes[32]; // bodies around it, POV-Ray's list is as long as it needs
     const InteriorList *start_list;
+    const Story *story; // NULL but for --pixel
     Arena *arena;
 };
 

@@ -2,6 +2,7 @@
 // One ray: nearest hit, shade or sky (facts: rendering 4.1); and what surrounds it: the tables made
 // once per scene, the tracer of a thread, the bodies the camera stands in.
 #include "render/shading.h"
+#include "render/story.h"
 
 #include "texture/noise.h"
 
@@ -124,6 +125,16 @@ static Color see_through_air(Tracer *tracer, const Path *path, double depth, Col
     return scene->fog_count > 0 ? fog_see(shading, &path->ray, depth, color) : color;
 }
 
+static void tell_hit(const Tracer *tracer, const Path *path, bool continued, const WorldHit *hit,
+                     const PatchStats *before) {
+    const PatchStats *now = &tracer->stats.patch;
+    const PatchStats work = {.patch_tests = now->patch_tests - before->patch_tests,
+                             .steps = now->steps - before->steps,
+                             .newton = now->newton - before->newton};
+    story_ray(tracer->story, path, continued);
+    story_hit(tracer->story, path, hit, &work);
+}
+
 Color trace_path(Tracer *tracer, const Path *path, bool continued) {
     const Shading *shading = tracer->shading;
     const Settings *settings = &shading->scene->settings;
@@ -131,13 +142,20 @@ Color trace_path(Tracer *tracer, const Path *path, bool continued) {
         path->nesting > NESTING_LIMIT)
         return (Color){0};
     WorldHit hit;
-    if (!world_intersect(shading->world, &path->ray, SHADE_MIN_DEPTH, INFINITY, path->kind,
-                         &tracer->stats, &hit))
+    PatchStats before = tracer->stats.patch;
+    bool met = world_intersect(shading->world, &path->ray, SHADE_MIN_DEPTH, INFINITY, path->kind,
+                               &tracer->stats, &hit);
+    if (tracer->story)
+        tell_hit(tracer, path, continued, met ? &hit : NULL, &before);
+    if (!met)
         return see_through_air(tracer, path, SHADE_FAR,
                                atmosphere_sky(shading, path->ray.dir, path->alpha));
     Path here = *path;
     here.level += continued ? 0 : 1;
-    return see_through_air(tracer, path, hit.t, shade_hit(tracer, &here, &hit));
+    Color color = see_through_air(tracer, path, hit.t, shade_hit(tracer, &here, &hit));
+    if (tracer->story)
+        story_color(tracer->story, path, color);
+    return color;
 }
 
 // The bodies around the start of a camera ray; all rays of a perspective camera share them.

@@ -2,6 +2,7 @@
 #   make         build the four programs into build/
 #   make demo    install what is missing, render the teapot with QI and with POV-Ray, compare
 #   make test    install what is missing, build, run all tests (AddressSanitizer, UBSan)
+#   make test-examples  read every scene that POV-Ray's distribution has, as POV-Ray does
 #   make gallery the pictures of README; make bench its table of speed; make deps lint clean
 MAKEFLAGS += --no-builtin-rules
 .DELETE_ON_ERROR:
@@ -106,6 +107,11 @@ demo: deps
 clean:
 	rm -rf build
 
+# All scenes of povray-examples and all standard includes, against POV-Ray: minutes.
+test-examples: deps
+	@$(MAKE) --no-print-directory -j$$(nproc) build/pov2qi
+	@tests/examples.sh
+
 gallery: deps
 	@$(MAKE) --no-print-directory -j$$(nproc) all
 	@tests/gallery.sh
@@ -114,5 +120,5 @@ bench: deps
 	@$(MAKE) --no-print-directory -j$$(nproc) all
 	@tests/bench.sh
 
-.PHONY: all deps test lint demo gallery bench clean
+.PHONY: all deps test test-examples lint demo gallery bench clean
 -include $(shell find build -name '*.d' 2>/dev/null)

@@ -3,8 +3,6 @@
 // asked for and its '#' comes up; it leaves the stream at the token after it.
 #include "converter/language.h"
 
-#include "base/console.h"
-
 #include <stdio.h>
 #include <string.h>
 
@@ -140,20 +138,6 @@ static void run_version(Converter *cv) {
 }
 
 // ---- #debug, #warning, #error -----------------------------------------------------------------
-
-// Whole lines only: what follows the last line end is never shown.
-void debug_text(Converter *cv, const char *text) {
-    Language *l = cv->language;
-    for (const char *p = string_for_output(cv, text); *p; p++) {
-        if (l->debug_used < sizeof l->debug_line - 1)
-            l->debug_line[l->debug_used++] = *p;
-        if (*p == '\n') {
-            l->debug_line[l->debug_used] = '\0';
-            console_print(CONSOLE_DEBUG, "%s", l->debug_line);
-            l->debug_used = 0;
-        }
-    }
-}
 
 // Line ends inside become blanks, at the end they go.
 static const char *one_line(Converter *cv, const char *text) {

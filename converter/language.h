@@ -229,7 +229,7 @@ typedef struct Language {
     LIST(uint32_t) seeds; // states of the random streams
     UserFile *written;
     size_t elements; // of all arrays
-    char debug_line[4096];
+    char debug_line[96]; // debug_text.c: of #debug, until its end comes
     size_t debug_used;
 } Language;
 
@@ -257,6 +257,6 @@ void run_fclose(Converter *cv);
 void run_read(Converter *cv);
 void run_write(Converter *cv);
 const Source *written_source(Converter *cv, const char *name);
-void debug_text(Converter *cv, const char *text);
+void debug_text(Converter *cv, const char *text); // debug_text.c
 
 #endif

@@ -259,7 +259,13 @@ static void words_of_the_other_programs(void **state) {
     assert_true(parse(PROGRAM_POV2QI, "a.pov -o b.qi.json --binary +L/inc", arena, &o));
     assert_string_equal(o.output, "b.qi.json");
     assert_true(o.binary && o.library_path_count == 1);
-    refuses(PROGRAM_POV2QI, arena, "+A0.3", "'+A0.3'", "no such option");
+    // The line that renders a scene converts it as well.
+    assert_true(parse(PROGRAM_POV2QI, "a.pov -F +A0.3 +KFF3 -D +SR2 Quality=4 --check", arena, &o));
+    assert_true(o.check && o.final_frame == 3);
+    assert_int_equal(o.remark_count, 4);
+    assert_false(o.remarks[0].warning);
+    assert_string_equal(o.remarks[1].text, "POV-Ray's A has no effect in this program");
+    refuses(PROGRAM_POV2QI, arena, "--method qi", "'--method'", "no such option");
 
     assert_true(
         parse(PROGRAM_QICOMPARE, "one.png two.EXR --fail 0.01 --failpercent=2 -o dir", arena, &o));

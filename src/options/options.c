@@ -153,6 +153,12 @@ static bool read_one(Parse *parse, char **argv, int *used) {
         parse->options->help = true;
         return true;
     }
+    // To POV-Ray -v is Verbose off, which is what pov2qi is anyway: here it means what compilers
+    // mean.
+    if (parse->program == PROGRAM_POV2QI && strcmp(word, "-v") == 0) {
+        parse->options->verbose = true;
+        return true;
+    }
     if (strcasecmp(word, "-version") == 0) {
         parse->options->show_version = true;
         return true;

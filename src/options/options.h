@@ -99,6 +99,7 @@ typedef struct {
     unsigned aovs;    // --aov: bit 1 << AovKind each
     bool strict;
     bool binary; // pov2qi
+    bool check;  // pov2qi: read the scene, write nothing
     bool help, show_version;
     // qicompare only.
     const char *pictures[2]; // bare names of pictures

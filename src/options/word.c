@@ -21,6 +21,9 @@ static bool apply_row(Parse *parse, const OptionRow *row, bool on, const char *v
     if (parse->loc.file && parse->program != PROGRAM_QIRENDER &&
         row->offset == offsetof(RenderOptions, output) && row->kind == OPTION_TEXT)
         return true;
+    if (!parse->loc.file && !(row->programs & (1u << parse->program)))
+        option_remark(parse, false, "POV-Ray's %s has no effect in this program",
+                      row->keyword ? row->keyword : row->letters);
     void *field = (char *)parse->options + row->offset;
     double number;
     int whole;
@@ -111,9 +114,13 @@ static size_t distance(const char *a, size_t a_length, const char *b) {
     return row[b_length];
 }
 
-// An INI file may be meant for another program: all of POV-Ray's options are known in it.
+// An INI file may be meant for another program: all of POV-Ray's options are known in it. So they
+// are to pov2qi, which takes the line that renders a scene.
 static bool belongs(const Parse *parse, const OptionRow *row) {
-    return parse->loc.file || (row->programs & (1u << parse->program)) != 0;
+    if ((row->programs & (1u << parse->program)) != 0)
+        return true;
+    bool povray = row->letters || row->keyword;
+    return povray && (parse->loc.file || parse->program == PROGRAM_POV2QI);
 }
 
 // The forms a word can have: the field of the row that names it.

@@ -43,13 +43,24 @@ typedef struct {
 } Source;
 
 // What kind of file is looked for decides the extensions that are tried (facts: sdl 1.6).
-typedef enum { FILE_SCENE, FILE_INCLUDE, FILE_IMAGE, FILE_FONT, FILE_TEXT } FileKind;
+typedef enum {
+    FILE_SCENE,
+    FILE_INCLUDE,
+    FILE_IMAGE,
+    FILE_FONT,
+    FILE_DENSITY,
+    FILE_TEXT
+} FileKind;
 
 // The path of the file, or NULL: working directory, then the library paths; then, with a note, the
 // folder of the including file, and the name in another case.
 const char *source_find(Converter *cv, const char *name, FileKind kind);
 // Finds and reads; dies at loc when there is none or it cannot be read.
 const Source *source_open(Converter *cv, const char *name, FileKind kind, const Loc *loc);
+// The path of a file that a statement names and other code reads; dies at loc when there is none.
+const char *source_require(Converter *cv, const char *name, FileKind kind, const Loc *loc);
+// The name of such a file at the cursor, which must be there; its path.
+const char *parse_required_file(Converter *cv, FileKind kind);
 
 // ---- lexer.c ----------------------------------------------------------------------------------
 

@@ -305,6 +305,9 @@ static void build_layers(Emitter *e, const TextureNode *node, Texture *texture) 
             emit_gap(e, layer->finish->refraction_loc,
                      "refraction as a factor of light is not modelled: what is seen through the "
                      "object is not dimmed by it");
+        // In a declaration or a default the pattern may still come; on an object it must be there.
+        if (layer->normal && layer->normal->info->keyword == 0)
+            die_at(layer->normal->block_loc, "No normal type given: a normal needs a pattern");
         if (normal_shows(layer->normal))
             emit_gap(e, layer->normal->block_loc, "normal is not modelled: the surface is smooth");
     }

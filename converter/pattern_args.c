@@ -140,7 +140,7 @@ static void parse_number_pattern(Converter *cv, PatternNode *pattern) {
     switch (pattern->info->keyword) {
     case KW_density_file:
         expect(cv, KW_df3, "density_file");
-        parse_file_name(cv);
+        parse_required_file(cv, FILE_DENSITY);
         break;
     case KW_gradient:
         parse_gradient(cv, pattern);

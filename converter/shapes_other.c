@@ -420,7 +420,7 @@ static void parse_text(Converter *cv, ObjectNode *object) {
         parse_float(cv);
     } else {
         expect(cv, KW_ttf, "text");
-        parse_file_name(cv);
+        parse_required_file(cv, FILE_FONT);
     }
     optional_comma(cv);
     parse_string(cv);

@@ -18,9 +18,9 @@
 static const char *const extensions[][16] = {
     {".pov", ".POV", NULL},
     {".inc", ".INC", NULL},
-    {".png", ".PNG", ".tga", ".TGA", ".jpg", ".JPG", ".jpeg", ".gif", ".GIF", ".tif", ".tiff",
-     ".bmp", ".exr", ".hdr", NULL},
+    {NULL}, // image.c knows them
     {".ttf", ".TTF", NULL},
+    {".df3", ".DF3", NULL},
     {NULL},
 };
 
@@ -177,9 +177,29 @@ static const Source *known_source(const Converter *cv, const char *path) {
     return NULL;
 }
 
+// ORDER FileKind
+static const char *const kind_names[] = {"scene file", "include file", "image file",
+                                         "font file",  "density file", "file"};
+
+_Noreturn static void die_missing(const char *name, FileKind kind, const Loc *loc) {
+    die_at(loc, "Cannot open %s '%s': it is not in the working directory, in a library path (+L)%s",
+           kind_names[kind], name, kind == FILE_SCENE ? "" : " or beside the scene");
+}
+
+const char *source_require(Converter *cv, const char *name, FileKind kind, const Loc *loc) {
+    const Source *written = written_source(cv, name);
+    const char *path = written ? written->name : source_find(cv, name, kind);
+    if (!path)
+        die_missing(name, kind, loc);
+    return path;
+}
+
+const char *parse_required_file(Converter *cv, FileKind kind) {
+    Loc loc = here(cv);
+    return source_require(cv, parse_file_name(cv), kind, &loc);
+}
+
 const Source *source_open(Converter *cv, const char *name, FileKind kind, const Loc *loc) {
-    static const char *const what[] = {"scene file", "include file", "image file", "font file",
-                                       "file"};
     const Source *written = kind == FILE_SCENE ? NULL : written_source(cv, name);
     if (written)
         return written;
@@ -196,11 +216,8 @@ const Source *source_open(Converter *cv, const char *name, FileKind kind, const 
         text = file_read(cv->arena, path, &size, &why);
     if (!text) {
         if (why)
-            die_at(loc, "Cannot open %s '%s': %s", what[kind], name, why);
-        die_at(loc,
-               "Cannot open %s '%s': it is not in the working directory, in a library path "
-               "(+L)%s",
-               what[kind], name, kind == FILE_SCENE ? "" : " or beside the scene");
+            die_at(loc, "Cannot open %s '%s': %s", kind_names[kind], name, why);
+        die_missing(name, kind, loc);
     }
     Source *source = ARENA_NEW(cv->arena, Source);
     source->name = path;

@@ -34,8 +34,6 @@ const PatternNode *parse_normal_body(Converter *cv, const PatternNode *base) {
                               : pattern_node_default();
     node.block_loc = keep_place(cv, token);
     parse_pattern(cv, USE_NORMAL, &node);
-    if (node.info->keyword == 0)
-        die_at(node.block_loc, "a normal needs a pattern");
     return copy_pattern(cv, &node);
 }
 

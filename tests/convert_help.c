@@ -54,6 +54,16 @@ static const char *temporary_folder(void) {
         strcpy(folder, "/tmp/qipov-test-XXXXXX");
         if (!mkdtemp(folder))
             abort();
+        // What the texts name as pictures must be there; nothing of them is read.
+        static const char *const files[] = {"a.png", "none.png", "a.df3"};
+        for (size_t i = 0; i < sizeof files / sizeof *files; i++) {
+            char path[128];
+            snprintf(path, sizeof path, "%s/%s", folder, files[i]);
+            FILE *out = fopen(path, "w");
+            if (!out)
+                abort();
+            fclose(out);
+        }
     }
     return folder;
 }

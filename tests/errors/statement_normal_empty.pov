@@ -1,2 +1,2 @@
-// 2:24 needs a pattern
+// 2:24 no normal type given
 sphere { 0, 1 normal { } }

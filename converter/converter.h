@@ -43,14 +43,7 @@ typedef struct {
 } Source;
 
 // What kind of file is looked for decides the extensions that are tried (facts: sdl 1.6).
-typedef enum {
-    FILE_SCENE,
-    FILE_INCLUDE,
-    FILE_IMAGE,
-    FILE_FONT,
-    FILE_DENSITY,
-    FILE_TEXT
-} FileKind;
+typedef enum { FILE_SCENE, FILE_INCLUDE, FILE_IMAGE, FILE_FONT, FILE_DENSITY, FILE_TEXT } FileKind;
 
 // The path of the file, or NULL: working directory, then the library paths; then, with a note, the
 // folder of the including file, and the name in another case.

@@ -228,7 +228,7 @@ typedef struct Language {
     LIST(const char *) library;
     LIST(uint32_t) seeds; // states of the random streams
     UserFile *written;
-    size_t elements; // of all arrays
+    size_t elements;     // of all arrays
     char debug_line[96]; // debug_text.c: of #debug, until its end comes
     size_t debug_used;
 } Language;

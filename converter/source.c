@@ -16,12 +16,8 @@
 
 // ORDER FileKind
 static const char *const extensions[][16] = {
-    {".pov", ".POV", NULL},
-    {".inc", ".INC", NULL},
-    {NULL}, // image.c knows them
-    {".ttf", ".TTF", NULL},
-    {".df3", ".DF3", NULL},
-    {NULL},
+    {".pov", ".POV", NULL}, {".inc", ".INC", NULL}, {NULL}, // image.c knows them
+    {".ttf", ".TTF", NULL}, {".df3", ".DF3", NULL}, {NULL},
 };
 
 enum { MAX_NAMES = 18 };

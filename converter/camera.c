@@ -11,13 +11,14 @@ static const double NEAR_ZERO = 1e-10;                                          
 
 typedef struct {
     CameraNode *node;
-    int type; // KW_perspective, ...
     bool old; // version < 3.5: everything acts at once
     bool has_up, has_right, has_angle, has_look_at;
     double angle;
+    double direction_length; // when it was measured last; the focal distance if none is given
+    bool has_focal_point;
+    Vec3 focal_point;
+    const Token *bokeh;
     Transform transform;
-    const Token *blur; // of aperture
-    double aperture, blur_samples;
 } Reader;
 
 static bool is_type(int code) {
@@ -27,10 +28,12 @@ static bool is_type(int code) {
 }
 
 // |direction| = |right| / (2 tan(angle / 2))
-static void apply_angle(Camera *camera, double angle) {
+static void apply_angle(Reader *reader, double angle) {
+    Camera *camera = &reader->node->camera;
     camera->direction = vec_normalize(camera->direction);
     double length = vec_length(camera->right) / tan(angle * RADIANS_PER_HALF_DEGREE) / 2.0;
     camera->direction = vec_scale(camera->direction, length);
+    reader->direction_length = length;
 }
 
 static bool vanishes(Vec3 v) {
@@ -38,11 +41,12 @@ static bool vanishes(Vec3 v) {
 }
 
 // Turns the camera towards look_at; lengths and handedness stay as they were before.
-static void apply_look_at(Converter *cv, const Reader *reader, const Token *token) {
+static void apply_look_at(Converter *cv, Reader *reader, const Token *token) {
     CameraNode *node = reader->node;
     Camera *camera = &node->camera;
     double direction = vec_length(camera->direction), up = vec_length(camera->up),
            right = vec_length(camera->right);
+    reader->direction_length = direction;
     double handedness = vec_dot(vec_cross(camera->up, camera->direction), camera->right);
     Vec3 towards = vec_sub(node->look_at, camera->location);
     Loc loc = token_loc(cv, token);
@@ -72,6 +76,13 @@ static void apply_orthographic(CameraNode *node) {
     }
 }
 
+static void apply_focal_point(Reader *reader) {
+    CameraNode *node = reader->node;
+    Vec3 towards = vec_sub(reader->focal_point, node->camera.location);
+    node->camera.blur.focal_distance = vec_length(towards);
+    node->has_focus = true;
+}
+
 static void move_camera(Camera *camera, const Transform *t) {
     camera->location = transform_point(t, camera->location);
     camera->direction = transform_dir(t, camera->direction);
@@ -99,45 +110,77 @@ static void parse_mesh_camera(Converter *cv) {
     expect(cv, '}', "mesh_camera");
 }
 
-static void parse_type(Converter *cv, Reader *reader) {
-    const Token *token = next_token(cv);
-    reader->type = token->code;
-    reader->node->gaps = NULL; // of another type before
-    reader->node->camera.type =
-        token->code == KW_orthographic ? CAMERA_ORTHOGRAPHIC : CAMERA_PERSPECTIVE;
-    if (token->code == KW_cylinder) {
-        double kind = parse_float(cv);
-        Loc loc = token_loc(cv, token);
-        if (!reader->old && !(kind >= 1 && kind < 5))
-            die_at(&loc, "a cylinder camera is of type 1, 2, 3 or 4");
-    }
-    if (token->code == KW_mesh_camera)
-        parse_mesh_camera(cv);
-    if (token->code != KW_perspective && token->code != KW_orthographic)
-        note_gap(cv, &reader->node->gaps, token,
-                 arena_printf(cv->arena,
-                              "the camera type '%s' is not modelled: the picture is a perspective "
-                              "one",
-                              token->text));
-    if (reader->old && token->code == KW_orthographic)
-        apply_orthographic(reader->node);
+static CameraType parse_cylinder_type(Converter *cv, const Reader *reader, const Token *token) {
+    double kind = parse_float(cv);
+    Loc loc = token_loc(cv, token);
+    bool known = kind >= 1 && kind < 5;
+    if (!known && !reader->old)
+        die_at(&loc, "a cylinder camera is of type 1, 2, 3 or 4");
+    return known ? (CameraType)(CAMERA_CYLINDER_1 + (int)kind - 1) : reader->node->camera.type;
 }
 
-static void parse_angle(Converter *cv, Reader *reader, const Token *token) {
-    reader->angle = parse_float(cv);
-    reader->has_angle = true;
-    bool flat = reader->type == KW_perspective || reader->type == KW_orthographic;
+static void parse_type(Converter *cv, Reader *reader) {
+    static const struct {
+        int keyword;
+        CameraType type;
+    } types[] = {{KW_orthographic, CAMERA_ORTHOGRAPHIC},
+                 {KW_fisheye, CAMERA_FISHEYE},
+                 {KW_ultra_wide_angle, CAMERA_ULTRA_WIDE_ANGLE},
+                 {KW_omnimax, CAMERA_OMNIMAX},
+                 {KW_panoramic, CAMERA_PANORAMIC},
+                 {KW_spherical, CAMERA_SPHERICAL}};
+    const Token *token = next_token(cv);
+    CameraNode *node = reader->node;
+    node->gaps = NULL; // of another type before
+    CameraType type = CAMERA_PERSPECTIVE;
+    for (size_t i = 0; i < sizeof types / sizeof *types; i++)
+        if (types[i].keyword == token->code)
+            type = types[i].type;
+    node->camera.type = token->code == KW_cylinder ? parse_cylinder_type(cv, reader, token) : type;
+    if (token->code == KW_mesh_camera) {
+        parse_mesh_camera(cv);
+        note_gap(cv, &node->gaps, token,
+                 "mesh_camera is not modelled: the picture is a perspective one");
+    }
+    if (reader->old && token->code == KW_orthographic)
+        apply_orthographic(node);
+}
+
+static bool is_flat(const Reader *reader) {
+    CameraType type = reader->node->camera.type;
+    return type == CAMERA_PERSPECTIVE || type == CAMERA_ORTHOGRAPHIC;
+}
+
+static double parse_one_angle(Converter *cv, const Token *token) {
+    double angle = parse_float(cv);
     Loc loc = token_loc(cv, token);
-    if (reader->angle < 0.0)
+    if (angle < 0.0)
         die_at(&loc, "the angle of a camera must not be negative");
-    if (flat && reader->angle >= 180.0)
+    return angle;
+}
+
+// angle F [, F]; an orthographic camera may do without a number
+static void parse_angle(Converter *cv, Reader *reader, const Token *token) {
+    Camera *camera = &reader->node->camera;
+    if (camera->type == CAMERA_SPHERICAL && !reader->old) {
+        camera->spherical_deg[0] = parse_one_angle(cv, token);
+        optional_comma(cv);
+        camera->spherical_deg[1] = camera->spherical_deg[0] * 0.5;
+        if (starts_expression(cv))
+            camera->spherical_deg[1] = parse_one_angle(cv, token);
+        return;
+    }
+    bool bare = camera->type == CAMERA_ORTHOGRAPHIC && !reader->old && !starts_expression(cv);
+    reader->angle = bare ? 0.0 : parse_one_angle(cv, token);
+    reader->has_angle = true;
+    Loc loc = token_loc(cv, token);
+    if (is_flat(reader) && reader->angle >= 180.0)
         die_at(&loc, "the angle of a camera must be less than 180 degrees");
     optional_comma(cv);
-    if (reader->type == KW_spherical && starts_expression(cv))
-        parse_float(cv);
-    if (reader->old && reader->type == KW_perspective) {
-        apply_angle(&reader->node->camera, reader->angle);
-        reader->node->camera.angle_deg = reader->angle;
+    if (reader->old) {
+        camera->angle_deg = reader->angle;
+        if (camera->type == CAMERA_PERSPECTIVE)
+            apply_angle(reader, reader->angle);
     }
 }
 
@@ -182,34 +225,74 @@ static bool parse_vectors(Converter *cv, Reader *reader, const Token *token) {
     }
 }
 
-static bool parse_rest(Converter *cv, Reader *reader, const Token *token) {
+// blur_samples [F,] F
+static void parse_blur_samples(Converter *cv, const Reader *reader, const Token *token) {
+    FocalBlur *blur = &reader->node->camera.blur;
+    double first = parse_float(cv), last = 0.0;
+    optional_comma(cv);
+    if (starts_expression(cv) && !reader->old)
+        last = trunc(parse_float(cv));
+    Loc loc = token_loc(cv, token);
+    double least = last != 0.0 ? first : 0.0, most = last != 0.0 ? last : first;
+    if (!(first > 0.0))
+        die_at(&loc, "blur_samples must be positive");
+    if (!(most <= CAMERA_MAX_BLUR_SAMPLES))
+        die_at(&loc, "blur_samples must be at most %d", CAMERA_MAX_BLUR_SAMPLES);
+    if (trunc(least) > most)
+        die_at(&loc, "the least number of blur_samples must not be larger than the largest");
+    blur->samples = (int)most;
+    blur->min_samples = (int)least;
+}
+
+static void parse_share(Converter *cv, const Token *token, bool ends, double *to) {
+    double value = parse_float(cv);
+    Loc loc = token_loc(cv, token);
+    if ((value > 0.0 && value < 1.0) || (ends && value >= 0.0 && value <= 1.0))
+        *to = value;
+    else
+        warn_at(&loc, "%s must lie between 0 and 1: the default is used", token->text);
+}
+
+static bool parse_blur(Converter *cv, Reader *reader, const Token *token) {
+    FocalBlur *blur = &reader->node->camera.blur;
     switch (token->code) {
     case KW_aperture:
-        reader->blur = next_token(cv);
-        reader->aperture = parse_float(cv);
+        next_token(cv);
+        blur->aperture = parse_float(cv);
         return true;
     case KW_blur_samples:
         next_token(cv);
-        reader->blur_samples = parse_float(cv);
-        optional_comma(cv);
-        if (starts_expression(cv))
-            reader->blur_samples = parse_float(cv);
+        parse_blur_samples(cv, reader, token);
         return true;
     case KW_focal_point:
         next_token(cv);
-        parse_vector(cv);
+        reader->focal_point = parse_vector(cv);
+        reader->has_focal_point = true;
+        if (reader->old)
+            apply_focal_point(reader);
         return true;
     case KW_confidence:
+        next_token(cv);
+        parse_share(cv, token, false, &blur->confidence);
+        return true;
     case KW_variance:
         next_token(cv);
-        parse_float(cv);
+        parse_share(cv, token, true, &blur->variance);
         return true;
+    default:
+        return false;
+    }
+}
+
+static bool parse_rest(Converter *cv, Reader *reader, const Token *token) {
+    switch (token->code) {
     case KW_bokeh:
         next_token(cv);
         expect(cv, '{', "bokeh");
-        expect(cv, KW_pigment, "bokeh");
-        parse_pigment_block(cv, cv->nodes->default_texture->pigment);
+        if (accept(cv, KW_pigment))
+            parse_pigment_block(cv, cv->nodes->default_texture->pigment);
         expect(cv, '}', "bokeh");
+        reader->bokeh = token;
         return true;
     case KW_normal:
         next_token(cv);
@@ -225,7 +308,8 @@ static bool parse_rest(Converter *cv, Reader *reader, const Token *token) {
 static bool parse_item(Converter *cv, Reader *reader) {
     const Token *token = peek_token(cv);
     Move move;
-    if (parse_vectors(cv, reader, token) || parse_rest(cv, reader, token))
+    if (parse_vectors(cv, reader, token) || parse_blur(cv, reader, token) ||
+        parse_rest(cv, reader, token))
         return true;
     if (parse_move(cv, &move)) {
         if (reader->old)
@@ -245,20 +329,36 @@ static bool parse_item(Converter *cv, Reader *reader) {
 }
 
 // What version 3.5 and later do at the end, whatever the order of writing.
-static void apply_collected(Converter *cv, const Reader *reader) {
+static void apply_collected(Converter *cv, Reader *reader) {
     CameraNode *node = reader->node;
     Camera *camera = &node->camera;
     if (reader->has_angle) {
         camera->angle_deg = reader->angle;
-        if (reader->angle > 0.0 && reader->angle < 180.0)
-            apply_angle(camera, reader->angle);
+        if (is_flat(reader) && reader->angle > 0.0)
+            apply_angle(reader, reader->angle);
     }
     if (reader->has_look_at)
         apply_look_at(cv, reader, peek_token(cv));
     bool sized = reader->has_up || reader->has_right;
     if (camera->type == CAMERA_ORTHOGRAPHIC && (!sized || reader->has_angle))
         apply_orthographic(node);
+    if (reader->has_focal_point)
+        apply_focal_point(reader);
     move_camera(camera, &reader->transform);
+}
+
+static void apply_blur(Converter *cv, Reader *reader) {
+    CameraNode *node = reader->node;
+    FocalBlur *blur = &node->camera.blur;
+    if (!node->has_focus)
+        blur->focal_distance = reader->direction_length;
+    if (blur->focal_distance == 0.0)
+        blur->focal_distance = 1.0;
+    node->has_focus = true;
+    node->camera.has_blur = blur->aperture != 0.0 && blur->samples > 0;
+    if (node->camera.has_blur && reader->bokeh)
+        note_gap(cv, &node->gaps, reader->bokeh,
+                 "bokeh is not modelled: all of the lens is equally clear");
 }
 
 // Only transforms may follow the name of a camera.
@@ -282,9 +382,8 @@ CameraNode *parse_camera_block(Converter *cv) {
     bool old = cv->version < 350;
     const CameraNode *base = old && nodes->camera ? nodes->camera : &nodes->default_camera;
     Reader reader = {.node = arena_copy(cv->arena, base, sizeof *base),
-                     .type = base->camera.type == CAMERA_ORTHOGRAPHIC ? KW_orthographic
-                                                                      : KW_perspective,
                      .old = old,
+                     .direction_length = 1.0,
                      .transform = transform_identity()};
     reader.node->gaps = NULL;
     while (!old && is_type(peek_token(cv)->code))
@@ -293,9 +392,7 @@ CameraNode *parse_camera_block(Converter *cv) {
     }
     if (!old)
         apply_collected(cv, &reader);
-    if (reader.aperture != 0.0 && reader.blur_samples > 0.0)
-        note_gap(cv, &reader.node->gaps, reader.blur,
-                 "focal blur is not modelled: the picture is sharp at every distance");
+    apply_blur(cv, &reader);
     expect(cv, '}', "camera");
     return reader.node;
 }

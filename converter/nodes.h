@@ -190,6 +190,7 @@ typedef struct {
     Camera camera; // its vectors are final
     Vec3 sky, look_at;
     bool has_look_at;
+    bool has_focus; // camera.blur.focal_distance is known
     const Gap *gaps;
 } CameraNode;
 

@@ -94,7 +94,19 @@ static Transform random_transform(Rng *rng) {
     X(Color, background)
 #define CAMERA_MEMBERS(X)                                                                          \
     X(CameraType, type)                                                                            \
-    X(Vec3, location) X(Vec3, direction) X(Vec3, up) X(Vec3, right) X(double, angle_deg)
+    X(Vec3, location)                                                                              \
+    X(Vec3, direction)                                                                             \
+    X(Vec3, up)                                                                                    \
+    X(Vec3, right)                                                                                 \
+    X(double, angle_deg)                                                                           \
+    X(double[2], spherical_deg)                                                                    \
+    X(bool, has_blur)                                                                              \
+    X(double, blur.aperture)                                                                       \
+    X(double, blur.focal_distance)                                                                 \
+    X(int, blur.samples)                                                                           \
+    X(int, blur.min_samples)                                                                       \
+    X(double, blur.confidence)                                                                     \
+    X(double, blur.variance)
 #define LIGHT_MEMBERS(X)                                                                           \
     X(LightType, type)                                                                             \
     X(Vec3, location)                                                                              \
@@ -201,14 +213,27 @@ static Settings make_settings(Rng *rng) {
 }
 
 static Camera make_camera(Rng *rng) {
-    return (Camera){
-        .type = (CameraType)random_below(rng, 2),
+    Camera camera = {
+        .type = (CameraType)random_below(rng, CAMERA_SPHERICAL + 1),
         .location = random_vec3(rng),
         .direction = random_unit(rng),
         .up = random_vec3(rng),
         .right = random_vec3(rng),
         .angle_deg = random_double(rng),
+        .spherical_deg = {random_double(rng), random_double(rng)},
+        .has_blur = random_bool(rng),
+        .blur = focal_blur_default(),
     };
+    if (camera.has_blur)
+        camera.blur = (FocalBlur){
+            .aperture = random_double(rng),
+            .focal_distance = random_double(rng),
+            .samples = 1 + (int)random_below(rng, 100),
+            .min_samples = (int)random_below(rng, 10),
+            .confidence = rng_range(rng, 0.1, 0.9),
+            .variance = random_double(rng),
+        };
+    return camera;
 }
 
 static AreaLight make_area_light(Rng *rng) {

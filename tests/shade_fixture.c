@@ -10,7 +10,7 @@
 
 #include "base/diag.h"
 #include "convert_help.h"
-#include "render/camera.h"
+#include "render/sample.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -186,6 +186,16 @@ static Ray look_through(const Fixture *f, int x, int y) {
     return (Ray){c->location, vec_normalize(vec_add(c->direction, offset))};
 }
 
+static Color trace_with(void *tracer, const Ray *ray) { return tracer_trace(tracer, ray); }
+
+static void trace_picture(const Scene *scene, Tracer *tracer, int width, int height,
+                          Color *pixels) {
+    const SampleOptions options = {.method = 0};
+    Sampler *sampler = sampler_create(&options, &scene->camera, width, height, width + height);
+    sampler_tile(sampler, (PixelRect){0, 0, width, height}, trace_with, tracer, pixels);
+    sampler_destroy(sampler);
+}
+
 static Color *our_picture(Fixture *f) {
     const Scene *scene = fixture_scene(f);
     PatchSetOptions patches = {.method = METHOD_FACETS, .tolerance = 1e-9};
@@ -194,12 +204,14 @@ static Color *our_picture(Fixture *f) {
     Shading *shading = shading_create(scene, world, &options);
     Tracer *tracer = tracer_create(shading);
     Color *pixels = ARENA_ARRAY(f->arena, Color, (size_t)f->width * (size_t)f->height);
-    for (int y = 0; y < f->height; y++)
-        for (int x = 0; x < f->width; x++) {
-            Ray ray = f->converted ? camera_ray(&scene->camera, f->width, f->height, x, y)
-                                   : look_through(f, x, y);
-            pixels[y * f->width + x] = tracer_trace(tracer, &ray);
+    if (f->converted) {
+        trace_picture(scene, tracer, f->width, f->height, pixels);
+    } else {
+        for (int i = 0; i < f->width * f->height; i++) {
+            Ray ray = look_through(f, i % f->width, i / f->width);
+            pixels[i] = tracer_trace(tracer, &ray);
         }
+    }
     tracer_destroy(tracer);
     shading_destroy(shading);
     world_destroy(world);
@@ -377,7 +389,7 @@ uint32_t fixture_one_layer(Fixture *f, Color color, Finish finish) {
 
 // POV-Ray takes most of a second for the smallest scene, and sleeps through most of that: a test
 // starts all its scenes before it looks at the first.
-static Fixture *launched[16];
+static Fixture *launched[32];
 static size_t launched_count;
 
 void fixture_compare_later(Fixture *f, int quality, bool alpha) {

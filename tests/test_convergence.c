@@ -50,10 +50,12 @@ typedef struct {
 static void look(const Scene *scene, Seen *seen) {
     PatchSetOptions options = patchset_options_default();
     World *world = world_create(scene, &options);
+    const CameraView view = camera_view(&scene->camera, WIDTH, HEIGHT);
     for (int y = 0; y < HEIGHT; y++) {
         for (int x = 0; x < WIDTH; x++) {
             Seen *s = &seen[y * WIDTH + x];
-            Ray ray = camera_ray(&scene->camera, WIDTH, HEIGHT, x, y);
+            Ray ray;
+            camera_ray(&view, x, y, &ray);
             WorldHit hit;
             *s = (Seen){0};
             if (!world_intersect(world, &ray, 1e-4, INFINITY, RAY_CAMERA, NULL, &hit))

@@ -122,10 +122,30 @@ static void several_cameras(void **state) {
     assert_warns("camera { } camera { } sphere { 0, 1 }", "a camera before");
     s = scene_of("#default { camera { right 2*x } } camera { location y } sphere { 0, 1 }");
     assert_vec(s->camera.right, 2, 0, 0);
-    assert_warns("camera { fisheye angle 200 } sphere { 0, 1 }", "'fisheye' is not modelled");
-    assert_warns("camera { aperture 1 blur_samples 4, 10 focal_point x } sphere { 0, 1 }",
-                 "focal blur");
-    assert_silent("#declare C = camera { fisheye } sphere { 0, 1 }");
+    const Camera *c = &scene_of("camera { spherical angle 200 } sphere { 0, 1 }")->camera;
+    assert_int_equal(c->type, CAMERA_SPHERICAL);
+    assert_true(c->spherical_deg[0] == 200 && c->spherical_deg[1] == 100 && c->angle_deg == 90);
+    c = &scene_of("camera { cylinder 3 angle 200, } sphere { 0, 1 }")->camera;
+    assert_int_equal(c->type, CAMERA_CYLINDER_3);
+    assert_true(c->angle_deg == 200 && !c->has_blur);
+    c = &scene_of("camera { aperture 1 blur_samples 4, 10 focal_point 3*y location 7*y scale 2 "
+                  "confidence 0.8 variance 0 } sphere { 0, 1 }")
+             ->camera;
+    assert_true(c->has_blur && c->blur.samples == 10 && c->blur.min_samples == 4);
+    assert_true(c->blur.focal_distance == 4 && c->blur.variance == 0 && c->blur.confidence == 0.8);
+    c = &scene_of("camera { aperture 1 blur_samples 4 direction 3*z look_at 9*y } sphere { 0, 1 }")
+             ->camera;
+    assert_true(c->blur.focal_distance == 3 && c->blur.min_samples == 0);
+    assert_warns("camera { mesh_camera { 1 0 } } sphere { 0, 1 }", "mesh_camera is not modelled");
+    assert_silent("#declare C = camera { mesh_camera { 1 0 } } sphere { 0, 1 }");
+    assert_warns("camera { aperture 1 blur_samples 9 bokeh { pigment { rgb 1 } } } sphere { 0, 1 }",
+                 "bokeh is not modelled");
+    assert_silent("camera { bokeh { pigment { rgb 1 } } } sphere { 0, 1 }");
+    assert_warns("camera { aperture 1 confidence 1 } sphere { 0, 1 }", "between 0 and 1");
+    assert_dies("camera { blur_samples 0 }", "must be positive");
+    assert_dies("camera { blur_samples 9, 3 }", "must not be larger");
+    assert_dies("camera { blur_samples 1e9 }", "at most 100000");
+    assert_dies("camera { cylinder 5 }", "type 1, 2, 3 or 4");
 }
 
 static Settings settings(const char *raw) {

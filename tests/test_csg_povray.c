@@ -123,9 +123,11 @@ static int count_differences(const uint16_t *want, const char *text) {
     TraceOptions options = {.quality = 9};
     Shading *shading = shading_create(scene, world, &options);
     Tracer *tracer = tracer_create(shading);
+    const CameraView view = camera_view(&scene->camera, WIDTH, HEIGHT);
     int count = 0;
     for (int i = 0; i < WIDTH * HEIGHT; i++) {
-        Ray ray = camera_ray(&scene->camera, WIDTH, HEIGHT, i % WIDTH, i / WIDTH);
+        Ray ray;
+        camera_ray(&view, i % WIDTH, i / WIDTH, &ray);
         Color c = tracer_trace(tracer, &ray);
         const long got[3] = {value_of(c.r), value_of(c.g), value_of(c.b)};
         bool differs = false;

@@ -332,7 +332,7 @@ static const struct {
      "camera.location: expected an array [...], found an object"},
     {HEAD "\"camera\": {\"direction\": [0, 0, 0]}}", "camera.direction: it has no length"},
     {HEAD "\"camera\": {\"up\": [0, 1e61, 0]}}", "camera.up: 1e+61 is out of range"},
-    {HEAD "\"camera\": {\"type\": \"fisheye\"}}", "camera.type: unknown word 'fisheye'"},
+    {HEAD "\"camera\": {\"type\": \"mesh\"}}", "camera.type: unknown word 'mesh'"},
     {HEAD "\"lights\": [{\"location\": [0, 0, 0]}]}", "lights[0]: 'color' is missing"},
     {HEAD "\"lights\": [{\"location\": [0, 0, 1], \"color\": [1, 1, 1], \"type\": \"parallel\"}]}",
      "lights[0].point_at: it is the light's location"},

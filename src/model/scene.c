@@ -23,6 +23,10 @@ Settings settings_default(void) {
     };
 }
 
+FocalBlur focal_blur_default(void) {
+    return (FocalBlur){.focal_distance = 1, .confidence = 0.9, .variance = 1.0 / 10000.0};
+}
+
 Camera camera_default(void) {
     return (Camera){
         .type = CAMERA_PERSPECTIVE,
@@ -30,6 +34,8 @@ Camera camera_default(void) {
         .up = {0, 1, 0},
         .right = {1.33, 0, 0},
         .angle_deg = 90,
+        .spherical_deg = {360, 180},
+        .blur = focal_blur_default(),
     };
 }
 
@@ -170,12 +176,15 @@ bool object_is_tree(const Object *object) {
     X(crand)                                                                                       \
     X(cubic)                                                                                       \
     X(cylinder)                                                                                    \
+    X(cylinder_camera)                                                                             \
     X(cylinder_light)                                                                              \
     X(cylindrical)                                                                                 \
     X(dents)                                                                                       \
     X(diffuse_back)                                                                                \
     X(disc)                                                                                        \
     X(double_illuminate)                                                                           \
+    X(fisheye)                                                                                     \
+    X(focal_blur)                                                                                  \
     X(fog)                                                                                         \
     X(gradient)                                                                                    \
     X(granite)                                                                                     \
@@ -195,8 +204,10 @@ bool object_is_tree(const Object *object) {
     X(no_image)                                                                                    \
     X(no_reflection)                                                                               \
     X(no_shadow)                                                                                   \
+    X(omnimax)                                                                                     \
     X(onion)                                                                                       \
     X(orthographic)                                                                                \
+    X(panoramic)                                                                                   \
     X(parallel_light)                                                                              \
     X(pattern_warp)                                                                                \
     X(pattern_wave)                                                                                \
@@ -218,6 +229,7 @@ bool object_is_tree(const Object *object) {
     X(specular)                                                                                    \
     X(sphere)                                                                                      \
     X(spherical)                                                                                   \
+    X(spherical_camera)                                                                            \
     X(spiral1)                                                                                     \
     X(spiral2)                                                                                     \
     X(spotlight)                                                                                   \
@@ -227,6 +239,7 @@ bool object_is_tree(const Object *object) {
     X(triangle)                                                                                    \
     X(triangular)                                                                                  \
     X(turbulence)                                                                                  \
+    X(ultra_wide_angle)                                                                            \
     X(union)                                                                                       \
     X(uv_mapping)                                                                                  \
     X(warp_black_hole)                                                                             \
@@ -274,6 +287,13 @@ static const Feature WARP_FEATURES[] = {
     FEATURE_pattern_warp,    FEATURE_warp_turbulence,  FEATURE_warp_repeat,
     FEATURE_warp_black_hole, FEATURE_warp_cubic,       FEATURE_warp_planar,
     FEATURE_warp_spherical,  FEATURE_warp_cylindrical, FEATURE_warp_toroidal};
+
+// ORDER camera_type
+static const Feature CAMERA_FEATURES[] = {
+    FEATURE_perspective,      FEATURE_orthographic,    FEATURE_fisheye,
+    FEATURE_ultra_wide_angle, FEATURE_omnimax,         FEATURE_panoramic,
+    FEATURE_cylinder_camera,  FEATURE_cylinder_camera, FEATURE_cylinder_camera,
+    FEATURE_cylinder_camera,  FEATURE_spherical_camera};
 
 static bool is_black(Rgb c) { return c.r == 0 && c.g == 0 && c.b == 0; }
 static bool is_clear(Color c) { return c.filter != 0 || c.transmit != 0; }
@@ -393,8 +413,8 @@ static void collect_objects(const Scene *scene, FeatureSet *set) {
 
 void scene_collect_requires(Scene *scene, Arena *arena) {
     FeatureSet set = {{false}};
-    need(&set, FEATURE_perspective, scene->camera.type == CAMERA_PERSPECTIVE);
-    need(&set, FEATURE_orthographic, scene->camera.type == CAMERA_ORTHOGRAPHIC);
+    need(&set, CAMERA_FEATURES[scene->camera.type], true);
+    need(&set, FEATURE_focal_blur, scene->camera.has_blur);
     need(&set, FEATURE_sky_sphere, scene->has_sky_sphere);
     need(&set, FEATURE_fog, scene->fog_count > 0);
     need(&set, FEATURE_rainbow, scene->rainbow_count > 0);

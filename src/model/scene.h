@@ -42,13 +42,38 @@ typedef struct {
 // ---- camera ---------------------------------------------------------------------------------
 
 // ORDER camera_type
-typedef enum { CAMERA_PERSPECTIVE, CAMERA_ORTHOGRAPHIC } CameraType;
+typedef enum {
+    CAMERA_PERSPECTIVE,
+    CAMERA_ORTHOGRAPHIC,
+    CAMERA_FISHEYE,
+    CAMERA_ULTRA_WIDE_ANGLE,
+    CAMERA_OMNIMAX,
+    CAMERA_PANORAMIC,
+    CAMERA_CYLINDER_1, // axis up, rays from one point
+    CAMERA_CYLINDER_2, // axis right, rays from one point
+    CAMERA_CYLINDER_3, // axis up, rays across it
+    CAMERA_CYLINDER_4, // axis right, rays across it
+    CAMERA_SPHERICAL,
+} CameraType;
+
+enum { CAMERA_MAX_BLUR_SAMPLES = 100000 }; // room for so many lens points is taken
+
+// A lens as wide as `aperture`, sharp at focal_distance.
+typedef struct {
+    double aperture, focal_distance;
+    int samples;     // 1 to CAMERA_MAX_BLUR_SAMPLES: at most so many points of the lens
+    int min_samples; // no fewer, whatever the statistics say
+    double confidence, variance;
+} FocalBlur;
 
 // The vectors as they stand after angle, look_at and all transforms (facts: rendering 1.2).
 typedef struct {
     CameraType type;
     Vec3 location, direction, up, right;
-    double angle_deg; // as stored by `angle`; used only by camera types other than these two
+    double angle_deg; // as stored by `angle`: fisheye, ultra_wide_angle, cylinder; default 90
+    double spherical_deg[2]; // spherical: across and up; default 360, 180
+    bool has_blur;
+    FocalBlur blur;
 } Camera;
 
 // ---- lights ---------------------------------------------------------------------------------
@@ -421,6 +446,7 @@ typedef struct {
 } Scene;
 
 Settings settings_default(void);
+FocalBlur focal_blur_default(void); // without an aperture and samples
 Camera camera_default(void);
 Finish finish_default(void);
 Interior interior_default(void);

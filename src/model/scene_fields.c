@@ -35,7 +35,23 @@ static void default_settings(void *out) { *(Settings *)out = settings_default();
 static const Record SETTINGS = {NULL, SETTINGS_FIELDS, sizeof(Settings), default_settings, NULL};
 
 // ORDER camera_type
-static const char *const CAMERA_TYPE_NAMES[] = {"perspective", "orthographic", NULL};
+static const char *const CAMERA_TYPE_NAMES[] = {
+    "perspective", "orthographic", "fisheye",    "ultra_wide_angle", "omnimax",   "panoramic",
+    "cylinder_1",  "cylinder_2",   "cylinder_3", "cylinder_4",       "spherical", NULL,
+};
+
+static const Field FOCAL_BLUR_FIELDS[] = {
+    DOUBLE_AS(FIELD_REQUIRED, FocalBlur, aperture, "aperture"),
+    DOUBLE_AS(FIELD_ALWAYS, FocalBlur, focal_distance, "focal_distance"),
+    {.name = "samples", .type = FIELD_INT, .presence = FIELD_REQUIRED, AT(FocalBlur, samples)},
+    INT(FocalBlur, min_samples, "min_samples"),
+    DOUBLE(FocalBlur, confidence, "confidence"),
+    DOUBLE(FocalBlur, variance, "variance"),
+    END,
+};
+static void default_focal_blur(void *out) { *(FocalBlur *)out = focal_blur_default(); }
+static const Record FOCAL_BLUR = {NULL, FOCAL_BLUR_FIELDS, sizeof(FocalBlur), default_focal_blur,
+                                  NULL};
 
 static const Field CAMERA_FIELDS[] = {
     ENUM(Camera, type, "type", CAMERA_TYPE_NAMES),
@@ -44,6 +60,13 @@ static const Field CAMERA_FIELDS[] = {
     VEC3_AS(FIELD_ALWAYS, Camera, up, "up"),
     VEC3_AS(FIELD_ALWAYS, Camera, right, "right"),
     DOUBLE_AS(FIELD_PLAIN, Camera, angle_deg, "angle"),
+    {.name = "spherical_angles", .type = FIELD_DOUBLES, AT(Camera, spherical_deg), .columns = 2},
+    {.name = "focal_blur",
+     .type = FIELD_RECORD,
+     .presence = FIELD_FLAGGED,
+     AT(Camera, blur),
+     .link = offsetof(Camera, has_blur),
+     .record = &FOCAL_BLUR},
     END,
 };
 static void default_camera(void *out) { *(Camera *)out = camera_default(); }

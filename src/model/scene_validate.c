@@ -33,15 +33,29 @@ static void check_settings(const Check *c) {
     check_range(c, &path, "noise_generator", s->noise_generator, 1, 3);
 }
 
+static void check_focal_blur(const Check *c, const FieldPath *up, const FocalBlur *blur) {
+    const FieldPath path = path_field(up, "focal_blur");
+    const FieldPath confidence = path_field(&path, "confidence");
+    check_numbers(c, &path, "aperture", &blur->aperture, 1);
+    check_numbers(c, &path, "focal_distance", &blur->focal_distance, 1);
+    check_range(c, &path, "samples", blur->samples, 1, CAMERA_MAX_BLUR_SAMPLES);
+    check_numbers(c, &path, "variance", &blur->variance, 1);
+    if (!(blur->confidence > 0 && blur->confidence < 1))
+        refuse(c, &confidence, "it must lie between 0 and 1");
+}
+
 static void check_camera(const Check *c) {
     const FieldPath path = path_field(NULL, "camera");
     const Camera *camera = &c->scene->camera;
-    check_range(c, &path, "type", (int)camera->type, CAMERA_PERSPECTIVE, CAMERA_ORTHOGRAPHIC);
+    check_range(c, &path, "type", (int)camera->type, CAMERA_PERSPECTIVE, CAMERA_SPHERICAL);
     check_vec3(c, &path, "location", camera->location);
     check_vec3(c, &path, "direction", camera->direction);
     check_vec3(c, &path, "up", camera->up);
     check_vec3(c, &path, "right", camera->right);
     check_numbers(c, &path, "angle", &camera->angle_deg, 1);
+    check_numbers(c, &path, "spherical_angles", camera->spherical_deg, 2);
+    if (camera->has_blur)
+        check_focal_blur(c, &path, &camera->blur);
     if (!(vec_length(camera->direction) > 0)) {
         const FieldPath direction = path_field(&path, "direction");
         refuse(c, &direction, "it has no length");

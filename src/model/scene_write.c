@@ -119,6 +119,7 @@ static void write_record(Writer *w, const Record *record, const void *at) {
         CrackleShape crackle;
         Settings settings;
         Camera camera;
+        FocalBlur blur;
         SkySphere sky_sphere;
         Warp warp;
         AreaLight area_light;

@@ -15,12 +15,14 @@
 #include "render/sample.h"
 
 #include "base/arena.h"
+#include "render/blur.h"
 
 #include <math.h>
 
 struct Sampler {
     SampleOptions options;
-    const Camera *camera;
+    CameraView view;
+    const Blur *blur; // NULL: the picture is sharp everywhere
     int width, height;
     Arena *arena;
     // One tile and its frame.
@@ -39,7 +41,8 @@ Sampler *sampler_create(const SampleOptions *options, const Camera *camera, int 
     Arena *arena = arena_create();
     Sampler *s = ARENA_NEW(arena, Sampler);
     s->options = *options;
-    s->camera = camera;
+    s->view = camera_view(camera, width, height);
+    s->blur = camera->has_blur ? blur_create(camera, arena) : NULL;
     s->width = width;
     s->height = height;
     s->arena = arena;
@@ -66,7 +69,11 @@ uint64_t sampler_rays(const Sampler *sampler) { return sampler->rays; }
 uint64_t sampler_pixels(const Sampler *sampler) { return sampler->supersampled; }
 
 static Color trace_at(Sampler *s, double x, double y) {
-    Ray ray = camera_ray(s->camera, s->width, s->height, x, y);
+    if (s->blur)
+        return blur_trace(s->blur, &s->view, x, y, s->trace, s->context, &s->rays);
+    Ray ray;
+    if (!camera_ray(&s->view, x, y, &ray))
+        return (Color){.transmit = 1.0f};
     s->rays++;
     return s->trace(s->context, &ray);
 }

@@ -87,6 +87,7 @@ ImageLayers *aov_render(const Scene *scene, const World *world, const RenderOpti
     layers->pixels = ARENA_ARRAY(arena, float, count *(size_t)channels);
     const uint32_t *patch_of = number_patches(scene, arena);
     PixelRect area = render_area(o);
+    const CameraView view = camera_view(&scene->camera, o->width, o->height);
 #pragma omp parallel for schedule(dynamic, 1)
     for (int y = area.top; y < area.bottom; y++)
         for (int x = area.left; x < area.right; x++) {
@@ -98,9 +99,10 @@ ImageLayers *aov_render(const Scene *scene, const World *world, const RenderOpti
             *out++ = color->b;
             if (o->alpha)
                 *out++ = 1.0f - color->transmit;
-            Ray ray = camera_ray(&scene->camera, o->width, o->height, x, y);
+            Ray ray;
             Look look = {.patch = NO_INDEX};
             look.met =
+                camera_ray(&view, x, y, &ray) &&
                 world_intersect(world, &ray, 0.0, INFINITY, RAY_CAMERA, &look.stats, &look.hit);
             if (look.met)
                 look.patch = patch_of[look.hit.object];

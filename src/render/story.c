@@ -138,9 +138,14 @@ Color story_of_pixel(const Scene *scene, const Shading *shading, int width, int 
     Story story = {out, scene, patch_of, (int)count};
     Tracer *tracer = tracer_create(shading);
     tracer->story = &story;
-    Ray ray = camera_ray(&scene->camera, width, height, x, y);
+    const CameraView view = camera_view(&scene->camera, width, height);
+    Color color = {.transmit = 1.0f};
+    Ray ray;
     fprintf(out, "pixel (%d, %d) of %d x %d, through its middle\n", x, y, width, height);
-    Color color = tracer_trace(tracer, &ray);
+    if (camera_ray(&view, x, y, &ray))
+        color = tracer_trace(tracer, &ray);
+    else
+        fprintf(out, "the camera sees nothing here\n");
     tracer_destroy(tracer);
     arena_destroy(arena);
     return color;

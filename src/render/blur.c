@@ -163,7 +163,8 @@ static double halton(uint64_t i, unsigned base) {
 
 static Vec2 disc_point(uint64_t i) {
     double r = sqrt(halton(i, 2) * 0.25), angle = halton(i, 3) * (2.0 * M_PI);
-    return (Vec2){r * cos(angle), r * sin(angle)};
+    double x = r * cos(angle), y = r * sin(angle);
+    return (Vec2){x, y};
 }
 
 // More points than the standard ones: each in a cell of its own of a grid, as long as tries last.

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
-// METHOD_CLIPPING and METHOD_NEWTON: hits, bounds and completeness against the oracle, and what
-// they do where there is no good answer.
+// METHOD_CLIPPING, METHOD_NEWTON and METHOD_TESSELLATION: hits, bounds and completeness against the
+// oracle, and what they do where there is no good answer.
 #include "patch_oracle.h"
 #include "ray_oracle.h"
 
 #include "base/rng.h"
+#include "patch/embree.h"
 #include "patch/patch.h"
+#include "patch/tessellation.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -248,12 +250,64 @@ static void shared_edges(void **state) {
     }
 }
 
+// Triangles: every hit within the tolerance of the patch, as the bound says; the nearest ones where
+// the oracle has them; all of them; masks and ranges.
+static void triangles(void **state) {
+    (void)state;
+    if (embree_missing()) {
+        printf("skipped: %s\n", embree_missing());
+        skip();
+    }
+    int hits = 0;
+    for (int n = 0; n < 20; n++) {
+        Rng rng = {(uint64_t)n};
+        Bezier patch;
+        sheet(&rng, 0.04, &patch);
+        PatchSet *set = set_of(METHOD_TESSELLATION, &patch, 1, 1e-4);
+        for (int i = 0; i < 12; i++) {
+            Ray ray = ray_through(&rng, &patch);
+            hits += as_the_oracle(set, &patch, &ray, 0.3, 1e-4);
+        }
+        patchset_destroy(set);
+    }
+    assert_true(hits > 60);
+    PatchSet *empty = set_of(METHOD_TESSELLATION, NULL, 0, 1e-4);
+    Ray ray = {vec3(0, 0, 0), vec3(0, 0, 1)};
+    assert_false(patchset_occluded(empty, &ray, 0, INFINITY, 2, NULL));
+    patchset_destroy(empty);
+}
+
+// Enough cuts bring the triangles to the distance asked, and not ten times nearer.
+static void cuts_from_the_distance(void **state) {
+    (void)state;
+    for (int n = 0; n < 20; n++) {
+        Rng rng = {(uint64_t)n};
+        Bezier patch;
+        sheet(&rng, 0.3, &patch);
+        PatchDef def = def_of(&patch);
+        uint32_t cuts = tessellation_cuts(&def, 1e-3);
+        double most = 0.0;
+        for (int i = 0; i < 2000; i++) {
+            double a = rng_unit(&rng), b = rng_unit(&rng) * (1.0 - a);
+            double u0 = floor(rng_unit(&rng) * cuts) / cuts,
+                   v0 = floor(rng_unit(&rng) * cuts) / cuts;
+            double h = 1.0 / cuts;
+            Vec3 p = oracle_point(&patch, u0, v0), q = oracle_point(&patch, fmin(u0 + h, 1), v0),
+                 r = oracle_point(&patch, u0, fmin(v0 + h, 1));
+            Vec3 flat =
+                vec_add(vec_add(vec_scale(p, 1.0 - a - b), vec_scale(q, a)), vec_scale(r, b));
+            Vec3 s = oracle_point(&patch, fmin(u0 + a * h, 1), fmin(v0 + b * h, 1));
+            most = fmax(most, vec_length(vec_sub(flat, s)));
+        }
+        assert_true(most <= 1e-3 && most >= 2e-5);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(random_patches),
-        cmocka_unit_test(scales),
-        cmocka_unit_test(nothing_hangs),
-        cmocka_unit_test(shared_edges),
+        cmocka_unit_test(random_patches), cmocka_unit_test(scales),
+        cmocka_unit_test(nothing_hangs),  cmocka_unit_test(shared_edges),
+        cmocka_unit_test(triangles),      cmocka_unit_test(cuts_from_the_distance),
     };
     return cmocka_run_group_tests_name("rivals", tests, NULL, NULL);
 }

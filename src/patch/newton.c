@@ -5,6 +5,7 @@
 // proves that there is no root or finds a better start (Wang, Shih and Chang 2001).
 #include "patch/newton.h"
 
+#include "patch/bernstein.h"
 #include "patch/clip.h"
 
 // Sub-patches are cut until they are flat to this share of their size: on the teapot the fewest
@@ -25,30 +26,6 @@ Newton *newton_create(Arena *arena, const PatchDef *defs, size_t count, double t
     Newton *newton = ARENA_NEW(arena, Newton);
     refine_build(arena, defs, count, tolerance, SHARE, &newton->refined);
     return newton;
-}
-
-static inline void weights_cubic(double t, double w[4], double dw[4]) {
-    double s = 1.0 - t;
-    w[0] = s * s * s;
-    w[1] = 3.0 * s * s * t;
-    w[2] = 3.0 * s * t * t;
-    w[3] = t * t * t;
-    dw[0] = -3.0 * s * s;
-    dw[1] = 3.0 * s * (s - 2.0 * t);
-    dw[2] = 3.0 * t * (2.0 * s - t);
-    dw[3] = 3.0 * t * t;
-}
-
-static inline void weights_any(int n, double t, double *w, double *dw) {
-    double s = 1.0 - t, low[BEZIER_MAX_DEGREE + 2] = {0.0, 1.0}; // degree n - 1, shifted by one
-    for (int k = 1; k < n; k++) {
-        for (int i = k + 1; i > 0; i--)
-            low[i] = low[i] * s + low[i - 1] * t;
-    }
-    for (int i = 0; i <= n; i++) {
-        w[i] = low[i + 1] * s + low[i] * t;
-        dw[i] = n * (low[i] - low[i + 1]);
-    }
 }
 
 // A coordinate and its derivatives.
@@ -80,14 +57,14 @@ static void look(const ClipNet *net, double u, double v, Value *x, Value *y) {
     double wu[BEZIER_MAX_DEGREE + 1], su[BEZIER_MAX_DEGREE + 1];
     double wv[BEZIER_MAX_DEGREE + 1], sv[BEZIER_MAX_DEGREE + 1];
     if (net->rows == 3 && net->columns == 3) {
-        weights_cubic(u, wu, su);
-        weights_cubic(v, wv, sv);
+        bernstein_cubic(u, wu, su);
+        bernstein_cubic(v, wv, sv);
         *x = sum_up(net->x, 3, 3, wu, su, wv, sv);
         *y = sum_up(net->y, 3, 3, wu, su, wv, sv);
         return;
     }
-    weights_any(net->rows, u, wu, su);
-    weights_any(net->columns, v, wv, sv);
+    bernstein(net->rows, u, wu, su);
+    bernstein(net->columns, v, wv, sv);
     *x = sum_up(net->x, net->rows, net->columns, wu, su, wv, sv);
     *y = sum_up(net->y, net->rows, net->columns, wu, su, wv, sv);
 }

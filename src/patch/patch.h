@@ -15,11 +15,12 @@
 
 // ORDER patch_method (names in patchset.c)
 typedef enum {
-    METHOD_QI,       // sub-patches, tree, QI bounds: the product
-    METHOD_QI_PAPER, // the paper's loop, double, no shortcuts
-    METHOD_CLIPPING, // Bézier clipping
-    METHOD_NEWTON,   // Newton from the middles of refined sub-patches
-    METHOD_FACETS,   // POV-Ray's own triangles
+    METHOD_QI,           // sub-patches, tree, QI bounds: the product
+    METHOD_QI_PAPER,     // the paper's loop, double, no shortcuts
+    METHOD_CLIPPING,     // Bézier clipping
+    METHOD_NEWTON,       // Newton from the middles of refined sub-patches
+    METHOD_FACETS,       // POV-Ray's own triangles
+    METHOD_TESSELLATION, // Embree over triangles, where Embree is installed
     METHOD_COUNT,
 } PatchMethod;
 

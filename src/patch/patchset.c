@@ -10,13 +10,15 @@
 #include "patch/newton.h"
 #include "patch/paper.h"
 #include "patch/query.h"
+#include "patch/tessellation.h"
 
 #include <assert.h>
 #include <string.h>
 
 // ORDER patch_method
-static const char *const method_names[METHOD_COUNT] = {"qi", "qi-paper", "clipping", "newton",
-                                                       "facets"};
+static const char *const method_names[] = {"qi",     "qi-paper", "clipping",
+                                           "newton", "facets",   "tessellation"};
+_Static_assert(sizeof method_names / sizeof method_names[0] == METHOD_COUNT, "a name each");
 
 struct PatchSet {
     PatchSetOptions options;
@@ -30,6 +32,7 @@ struct PatchSet {
     Clipping *clipping;
     Newton *newton;
     Facets *facets;
+    Tessellation *tessellation;
 };
 
 const char *patch_method_name(PatchMethod method) {
@@ -63,6 +66,8 @@ PatchSet *patchset_create(const PatchSetOptions *options) {
 void patchset_destroy(PatchSet *set) {
     if (!set)
         return;
+    if (set->tessellation)
+        tessellation_release(set->tessellation);
     array_free(&set->defs);
     arena_destroy(set->arena);
 }
@@ -101,6 +106,9 @@ void patchset_commit(PatchSet *set) {
     case METHOD_FACETS:
         set->facets = facets_create(set->arena, defs, count);
         break;
+    case METHOD_TESSELLATION:
+        set->tessellation = tessellation_create(set->arena, defs, count, set->options.tolerance);
+        break;
     case METHOD_COUNT:
         assert(!"no such method");
     }
@@ -109,7 +117,8 @@ void patchset_commit(PatchSet *set) {
 Box patchset_bounds(const PatchSet *set) { return set->bounds; }
 
 uint64_t patchset_memory(const PatchSet *set) {
-    return arena_bytes(set->arena) + set->defs.capacity * sizeof(PatchDef);
+    return arena_bytes(set->arena) + set->defs.capacity * sizeof(PatchDef) +
+           (set->tessellation ? tessellation_memory(set->tessellation) : 0);
 }
 
 static void ask(const PatchSet *set, Query *query) {
@@ -126,6 +135,8 @@ static void ask(const PatchSet *set, Query *query) {
         newton_query(set->newton, query);
     else if (set->facets)
         facets_query(set->facets, query);
+    else if (set->tessellation)
+        tessellation_query(set->tessellation, query);
 }
 
 static void add_stats(PatchStats *to, const Query *query) {

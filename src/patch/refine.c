@@ -3,6 +3,7 @@
 #include "patch/refine.h"
 
 #include "base/array.h"
+#include "patch/bernstein.h"
 #include "patch/quasi.h"
 
 #include <string.h>
@@ -258,24 +259,12 @@ void refine_query(const Refined *refined, Query *query, RefineSearch search) {
 
 // ---- Hits
 
-static void weights(int n, double t, double *w, double *dw) {
-    double s = 1.0 - t, low[BEZIER_MAX_DEGREE + 2] = {0.0, 1.0}; // degree n - 1, shifted by one
-    for (int k = 1; k < n; k++) {
-        for (int i = k + 1; i > 0; i--)
-            low[i] = low[i] * s + low[i - 1] * t;
-    }
-    for (int i = 0; i <= n; i++) {
-        w[i] = low[i + 1] * s + low[i] * t;
-        dw[i] = n * (low[i] - low[i + 1]);
-    }
-}
-
 // S, dS/du and dS/dv by the sub-patch's own parameters.
 static inline void eval_net(const double *p, int du, int dv, double u, double v, Vec3 out[3]) {
     double wu[BEZIER_MAX_DEGREE + 1], wv[BEZIER_MAX_DEGREE + 1];
     double su[BEZIER_MAX_DEGREE + 1], sv[BEZIER_MAX_DEGREE + 1], result[3][3] = {{0.0}};
-    weights(du, u, wu, su);
-    weights(dv, v, wv, sv);
+    bernstein(du, u, wu, su);
+    bernstein(dv, v, wv, sv);
     for (int axis = 0; axis < 3; axis++) {
         for (int i = 0; i <= du; i++, p += dv + 1) {
             double row = 0.0, slope = 0.0;

@@ -407,7 +407,7 @@ const OptionRow option_rows[] = {
      .help = "0 quick colours ... 4 shadows ... 9 everything (default)"},
     {OPTION_SPECIAL, NULL, NULL, "method", "name", DRAWS, .apply = apply_method,
      .help = "how patches are met: qi (default), qi-paper, clipping, newton, facets (POV-Ray's "
-             "triangles)"},
+             "triangles), tessellation (Embree's)"},
     {OPTION_SPECIAL, NULL, NULL, "tolerance", "x", DRAWS, .apply = apply_tolerance,
      .help = "the largest error of a hit, as a share of its patch's diameter (1e-9)"},
     {OPTION_SPECIAL, NULL, NULL, "aov", "list", IN_QIRENDER, .apply = apply_aov,

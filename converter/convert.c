@@ -100,10 +100,15 @@ static Converter *start(const RenderOptions *options, Arena *arena) {
 }
 
 Scene *convert_scene(const RenderOptions *options, Arena *arena) {
+    return convert_scene_listing(options, arena, NULL);
+}
+
+Scene *convert_scene_listing(const RenderOptions *options, Arena *arena, MissingList *missing) {
     if (!options->input)
         die("no input file");
     catch_interrupt();
     Converter *cv = start(options, arena);
+    cv->missing = missing;
     declare_initial(cv);
     const Source *source = source_open(cv, options->input, FILE_SCENE, &(Loc){0});
     const Loc start_of_file = {.file = source->name, .line = 1, .column = 1};

@@ -257,6 +257,7 @@ struct Converter {
     bool gamma_set;     // by assumed_gamma: srgb colours are understood from then on
     bool gamma_is_srgb; // assumed_gamma srgb
     double gamma;       // assumed_gamma, 0 when it is srgb or not yet known
+    void *missing;      // MissingList of convert.h: what is not modelled goes there; NULL: warn
     struct Language *language; // language.h: what only the language's own files need
 };
 

@@ -157,7 +157,7 @@ static void run_message(Converter *cv, const Token *word) {
     case KW_error:
         die_at(&loc, "#error: %s", one_line(cv, text));
     case KW_warning:
-        warn_at(&loc, "#warning: %s", one_line(cv, text));
+        warn_each_at(&loc, "#warning: %s", one_line(cv, text));
         return;
     case KW_debug:
         break;

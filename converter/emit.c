@@ -25,7 +25,10 @@ void emit_gap(Emitter *e, const Loc *loc, const char *text) {
     Said *said = ARENA_NEW(e->cv->arena, Said);
     *said = (Said){.next = *bucket, .loc = loc, .text = text};
     *bucket = said;
-    warn_at(loc, "%s", text);
+    if (e->cv->missing)
+        requires_add(e->cv, loc, text);
+    else
+        warn_at(loc, "%s", text);
 }
 
 void emit_gaps(Emitter *e, const Gap *gaps) {

@@ -45,6 +45,8 @@ typedef struct {
     NodeTable pigment_nodes, texture_nodes;
 } Emitter;
 
+// requires.c: adds to cv->missing.
+void requires_add(Converter *cv, const Loc *loc, const char *text);
 // Warns once a place and text.
 void emit_gap(Emitter *e, const Loc *loc, const char *text);
 void emit_gaps(Emitter *e, const Gap *gaps); // in the order in which they were noted

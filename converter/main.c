@@ -16,6 +16,14 @@
 static void convert(const RenderOptions *o) {
     Arena *arena = arena_create();
     const char *output = options_output_path(o, arena, "qi.json");
+    if (o->requires) {
+        MissingList missing = {0};
+        const Scene *scene = convert_scene_listing(o, arena, &missing);
+        requires_print(stdout, o, scene, &missing);
+        array_free(&missing);
+        arena_destroy(arena);
+        return;
+    }
     const Scene *scene = convert_scene(o, arena);
     if (!o->check)
         scene_write(scene, output, &(SceneWriteOptions){.binary = o->binary});

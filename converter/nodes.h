@@ -20,7 +20,8 @@ typedef struct Gap {
 
 // The place of a token, kept.
 const Loc *keep_place(Converter *cv, const Token *token);
-// Puts a gap in front of *list. text is kept as it is.
+// Puts a gap in front of *list. text is kept as it is. It names the keyword that is left out, in
+// quotes or as its first word, and behind a ':' what the picture lacks.
 void note_gap(Converter *cv, const Gap **list, const Token *token, const char *text);
 
 // ---- transforms: transform.c -------------------------------------------------------------------

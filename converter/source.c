@@ -195,7 +195,24 @@ const char *parse_required_file(Converter *cv, FileKind kind) {
     return source_require(cv, parse_file_name(cv), kind, &loc);
 }
 
-const Source *source_open(Converter *cv, const char *name, FileKind kind, const Loc *loc) {
+// A symbolic link that was copied as a file holds nothing but the name of the file it leads to.
+// The path of that, or NULL.
+static const char *followed_link(Converter *cv, const char *path, const char *text, size_t size) {
+    enum { LONGEST = 255 };
+    size_t length = strcspn(text, " \t\r\n\"'#{}();");
+    if (size > LONGEST || length == 0 || length + strspn(text + length, "\r\n") != size)
+        return NULL;
+    const char *name = arena_printf(cv->arena, "%.*s", (int)length, text);
+    const char *target = join(cv, folder_of(cv, path), name);
+    if (strcmp(target, path) == 0 || !file_exists(target))
+        return NULL;
+    note_found(cv, target, "the file only names it, as a copied symbolic link does");
+    return target;
+}
+
+// link: may the file be a copied link? What it leads to is none.
+static const Source *open_file(Converter *cv, const char *name, FileKind kind, bool link,
+                               const Loc *loc) {
     const Source *written = kind == FILE_SCENE ? NULL : written_source(cv, name);
     if (written)
         return written;
@@ -215,6 +232,9 @@ const Source *source_open(Converter *cv, const char *name, FileKind kind, const 
             die_at(loc, "Cannot open %s '%s': %s", kind_names[kind], name, why);
         die_missing(name, kind, loc);
     }
+    const char *target = link ? followed_link(cv, path, text, size) : NULL;
+    if (target)
+        return open_file(cv, target, kind, false, loc);
     Source *source = ARENA_NEW(cv->arena, Source);
     source->name = path;
     source->text = text;
@@ -222,4 +242,8 @@ const Source *source_open(Converter *cv, const char *name, FileKind kind, const 
     source->utf8 = kind == FILE_SCENE && size > 0 && (unsigned char)text[0] > 127;
     list_push(cv, &cv->language->sources, source);
     return source;
+}
+
+const Source *source_open(Converter *cv, const char *name, FileKind kind, const Loc *loc) {
+    return open_file(cv, name, kind, kind == FILE_INCLUDE, loc);
 }

@@ -7,6 +7,7 @@
 
 #include <setjmp.h>
 #include <stdarg.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -108,12 +109,33 @@ void die_at(const Loc *loc, const char *format, ...) {
     raise_message(message);
 }
 
-static void warn_with(const Loc *loc, const char *format, va_list args) {
+// What a loop or a macro would say a thousand times is said once: hashes of what was printed. When
+// the table is full, all is printed.
+static bool said_before(const char *message) {
+    enum { SLOTS = 4096, PROBES = 64 };
+    static uint64_t said[SLOTS];
+    uint64_t hash = 1469598103934665603u; // FNV-1a
+    for (const char *p = message; *p; p++)
+        hash = (hash ^ (unsigned char)*p) * 1099511628211u;
+    hash |= 1; // 0 is a free slot
+    for (uint64_t i = 0; i < PROBES; i++) {
+        uint64_t *slot = &said[(hash / 2 + i) % SLOTS];
+        if (*slot == hash)
+            return true;
+        if (*slot == 0) {
+            *slot = hash;
+            return false;
+        }
+    }
+    return false;
+}
+
+static void warn_with(const Loc *loc, bool each, const char *format, va_list args) {
     warnings++;
     char *message = build_message(loc, strict ? "error" : "warning", format, args);
     if (strict)
         raise_message(message);
-    if (!quiet)
+    if (!quiet && (each || !said_before(message)))
         console_print(CONSOLE_WARNING, "%s\n", message);
     free(message);
 }
@@ -121,14 +143,21 @@ static void warn_with(const Loc *loc, const char *format, va_list args) {
 void warn_at(const Loc *loc, const char *format, ...) {
     va_list args;
     va_start(args, format);
-    warn_with(loc, format, args);
+    warn_with(loc, false, format, args);
+    va_end(args);
+}
+
+void warn_each_at(const Loc *loc, const char *format, ...) {
+    va_list args;
+    va_start(args, format);
+    warn_with(loc, true, format, args);
     va_end(args);
 }
 
 void warn(const char *format, ...) {
     va_list args;
     va_start(args, format);
-    warn_with(NULL, format, args);
+    warn_with(NULL, false, format, args);
     va_end(args);
 }
 

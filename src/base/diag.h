@@ -22,8 +22,11 @@ _Noreturn void die(const char *format, ...) __attribute__((format(printf, 1, 2))
 _Noreturn void die_at(const Loc *loc, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 // Printed at once on stderr as "file:line:col: warning: ...", with the line and a caret; counted.
-// After diag_strict(true) a warning is an error.
+// The same words of the same place are printed once (counted each time). After diag_strict(true) a
+// warning is an error.
 void warn_at(const Loc *loc, const char *format, ...) __attribute__((format(printf, 2, 3)));
+// Printed as often as it is called.
+void warn_each_at(const Loc *loc, const char *format, ...) __attribute__((format(printf, 2, 3)));
 void warn(const char *format, ...) __attribute__((format(printf, 1, 2)));
 // A remark that is no warning ("file:line:col: note: ..."); shown only when verbose.
 void note_at(const Loc *loc, const char *format, ...) __attribute__((format(printf, 2, 3)));

@@ -98,8 +98,9 @@ typedef struct {
     int pixel[2];     // --pixel: column and row from 0; -1: none
     unsigned aovs;    // --aov: bit 1 << AovKind each
     bool strict;
-    bool binary; // pov2qi
-    bool check;  // pov2qi: read the scene, write nothing
+    bool binary;         // pov2qi
+    bool check;          // pov2qi: read the scene, write nothing
+    bool requires, json; // pov2qi: list what the scene needs, write nothing
     bool help, show_version;
     // qicompare only.
     const char *pictures[2]; // bare names of pictures

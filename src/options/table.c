@@ -372,6 +372,10 @@ const OptionRow option_rows[] = {
      .help = "large arrays to a second file"},
     {OPTION_FLAG, NULL, NULL, "check", NULL, IN_POV2QI, FIELD(check),
      .help = "read the scene to its end and write nothing"},
+    {OPTION_FLAG, NULL, NULL, "requires", NULL, IN_POV2QI, FIELD(requires),
+     .help = "list what the scene requires, and which of it is not modelled; write nothing"},
+    {OPTION_FLAG, NULL, NULL, "json", NULL, IN_POV2QI, FIELD(json),
+     .help = "with --requires: the list as JSON"},
 
     HEADING("Size and part of the picture"),
     {OPTION_INT, "W", "Width", NULL, "n", IN_ALL, FIELD(width), CLIP(-1e9, 1e9),

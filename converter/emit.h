@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What emit.c and emit_texture.c share: the pools of the scene while they grow.
+// What emit.c, emit_pigment.c, emit_normal.c and emit_texture.c share: the pools of the scene while
+// they grow.
 #ifndef CONVERTER_EMIT_H
 #define CONVERTER_EMIT_H
 
@@ -39,10 +40,12 @@ typedef struct {
     ARRAY(uint32_t) roots;
     ARRAY(Light) lights;
     ARRAY(Pigment) pigments;
+    ARRAY(Normal) normals;
     ARRAY(Texture) textures;
     ARRAY(Interior) interiors;
-    InternTable pigment_table, texture_table;
-    NodeTable pigment_nodes, texture_nodes;
+    InternTable pigment_table, normal_table, texture_table;
+    NodeTable pigment_nodes;
+    NodeTable normal_nodes[2], texture_nodes[2]; // without and with no_bump_scale from outside
 } Emitter;
 
 // requires.c: adds to cv->missing.
@@ -51,7 +54,32 @@ void requires_add(Converter *cv, const Loc *loc, const char *text);
 void emit_gap(Emitter *e, const Loc *loc, const char *text);
 void emit_gaps(Emitter *e, const Gap *gaps); // in the order in which they were noted
 
+// ---- emit_pool.c -------------------------------------------------------------------------------
+
+// Hashes go over members, not structs, since the bytes between members may be anything.
+#define POOL_HASH_START 0xCBF29CE484222325u
+uint64_t pool_hash(uint64_t hash, const void *data, size_t size);
+// The record of that hash for which same(e, index, record) holds, or NO_INDEX; then *slot is where
+// it belongs.
+typedef bool PoolSame(const Emitter *e, uint32_t index, const void *record);
+uint32_t pool_find(Emitter *e, InternTable *table, uint64_t hash, const void *record,
+                   PoolSame *same, size_t *slot);
+void pool_put(InternTable *table, size_t slot, uint64_t hash, uint32_t index);
+bool node_find(const NodeTable *table, const void *node, uint32_t *index);
+void node_put(Emitter *e, NodeTable *table, const void *node, uint32_t index);
+
+// ---- emit_pigment.c, emit_normal.c, emit_texture.c ----------------------------------------------
+
+// Where `at` falls in the map: the entry at or above it and the one below.
+void map_bracket(const MapNode *map, float at, uint32_t *below, uint32_t *above);
+// The pattern and its warps as the scene has them; only its warps.
+void emit_pattern(Emitter *e, const PatternNode *node, Pattern *pattern);
+void emit_warps(Emitter *e, const PatternNode *node, Pattern *pattern);
+uint64_t pattern_hash(uint64_t hash, const Pattern *pattern);
+
 uint32_t emit_pigment(Emitter *e, const PatternNode *pigment);
+// A missing normal (NULL) bends nothing. no_bump_scale: the texture around has it.
+uint32_t emit_normal(Emitter *e, const PatternNode *normal, bool no_bump_scale);
 uint32_t emit_texture(Emitter *e, const TextureNode *texture);
 
 #endif

@@ -94,8 +94,9 @@ typedef struct {
     Color color;        // one colour
     bool has_quick_color;
     Color quick_color;
-    float amount;         // normal: depth
-    const Loc *block_loc; // normal: of its block
+    float amount, accuracy; // normal: depth, and how far the pattern is looked at around the point
+    bool no_bump_scale;     // normal, texture
+    const Loc *block_loc;   // normal: of its block
 } PatternNode;
 
 const PatternInfo *pattern_find(int keyword);
@@ -132,10 +133,11 @@ typedef struct {
 } FinishNode;
 
 typedef struct TextureNode {
-    PatternNode pattern;             // plain unless info->keyword is a pattern's
-    const PatternNode *pigment;      // plain
-    const PatternNode *normal;       // plain; NULL: none
-    const FinishNode *finish;        // plain
+    PatternNode pattern;        // plain unless info->keyword is a pattern's
+    const PatternNode *pigment; // plain
+    const PatternNode *normal;  // plain; NULL: none
+    const FinishNode *finish;   // plain
+    bool no_bump_scale;
     const struct TextureNode *below; // the next layer
 } TextureNode;
 

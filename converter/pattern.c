@@ -26,7 +26,7 @@ static const PatternInfo patterns[] = {
     {.keyword = KW_cylindrical, .type = PATTERN_CYLINDRICAL},
     {.keyword = KW_density_file, .type = OTHER},
     {.keyword = KW_dents, .type = PATTERN_DENTS},
-    {.keyword = KW_facets, .type = OTHER},
+    {.keyword = KW_facets, .type = PATTERN_FACETS},
     {.keyword = KW_function, .type = OTHER},
     {.keyword = KW_gradient, .type = PATTERN_GRADIENT},
     {.keyword = KW_granite, .type = PATTERN_GRANITE},
@@ -53,7 +53,7 @@ static const PatternInfo patterns[] = {
     {.keyword = KW_spiral2, .type = PATTERN_SPIRAL2, .triangle = true},
     {.keyword = KW_spotted, .type = PATTERN_BOZO},
     {.keyword = KW_square, .type = PATTERN_SQUARE, .list = 4, .still = true},
-    {.keyword = KW_tiles, .type = OTHER, .still = true},
+    {.keyword = KW_tiles, .type = PATTERN_CHECKER, .still = true},
     {.keyword = KW_tiling, .type = OTHER},
     {.keyword = KW_triangular, .type = PATTERN_TRIANGULAR, .list = 6, .still = true},
     {.keyword = KW_uv_mapping, .type = OTHER},
@@ -75,7 +75,8 @@ const char *use_name(PatternUse use) {
 }
 
 PatternNode pattern_node_default(void) {
-    return (PatternNode){.info = pattern_find(0), .shape = pattern_default(), .amount = 0.5F};
+    return (PatternNode){
+        .info = pattern_find(0), .shape = pattern_default(), .amount = 0.5F, .accuracy = 0.02F};
 }
 
 static bool pattern_fits(PatternUse use, int keyword) {
@@ -191,7 +192,9 @@ static bool parse_float_into(Converter *cv, float *value) {
 }
 
 // Members of single patterns, each after its keyword.
-static bool parse_shape_modifier(Converter *cv, Pattern *shape, int code) {
+static bool parse_shape_modifier(Converter *cv, PatternNode *pattern, int code) {
+    Pattern *shape = &pattern->shape;
+    bool facets = pattern->info->type == PATTERN_FACETS;
     switch (code) {
     case KW_agate_turb:
         shape->has_turbulence = true;
@@ -212,7 +215,15 @@ static bool parse_shape_modifier(Converter *cv, Pattern *shape, int code) {
         return true;
     case KW_metric: // a vector, of which one component counts
         next_token(cv);
-        shape->crackle.metric = parse_vector(cv).x;
+        *(facets ? &shape->facets.metric : &shape->crackle.metric) = parse_vector(cv).x;
+        return true;
+    case KW_coords:
+        next_token(cv);
+        shape->facets.coords = parse_float(cv);
+        return true;
+    case KW_size:
+        next_token(cv);
+        shape->facets.size = parse_float(cv);
         return true;
     case KW_offset:
         next_token(cv);
@@ -231,14 +242,11 @@ static bool parse_shape_modifier(Converter *cv, Pattern *shape, int code) {
 static bool parse_number_modifier(Converter *cv, int code) {
     int most = 1;
     switch (code) {
-    case KW_coords:
-    case KW_size:
     case KW_exponent:
     case KW_interpolate:
     case KW_number_of_sides:
     case KW_number_of_tiles:
     case KW_pattern:
-    case KW_accuracy:
         break;
     case KW_interior: // type and factor; pavement: type
     case KW_exterior:
@@ -264,6 +272,13 @@ static void parse_noise_generator(Converter *cv, Pattern *shape) {
     if (!(number > -1 && number < 4))
         die_at(&loc, "noise_generator must be 0, 1, 2 or 3");
     shape->noise_generator |= (int)number;
+}
+
+static void parse_accuracy(Converter *cv, PatternNode *pattern) {
+    Loc loc = here(cv);
+    pattern->accuracy = (float)parse_float(cv);
+    if (pattern->accuracy == 0)
+        die_at(&loc, "the accuracy of a normal must not be 0");
 }
 
 static bool parse_modifier(Converter *cv, PatternUse use, PatternNode *pattern) {
@@ -302,14 +317,21 @@ static bool parse_modifier(Converter *cv, PatternUse use, PatternNode *pattern) 
         next_token(cv);
         pattern->amount = (float)parse_float(cv);
         return true;
+    case KW_accuracy:
+        if (use != USE_NORMAL)
+            return false;
+        next_token(cv);
+        parse_accuracy(cv, pattern);
+        return true;
     case KW_no_bump_scale:
         next_token(cv);
+        pattern->no_bump_scale = true;
         return true;
     default:
         break;
     }
     if (parse_wave(cv, pattern, code) || parse_map_modifier(cv, use, pattern) ||
-        parse_turbulence(cv, pattern) || parse_shape_modifier(cv, &pattern->shape, code) ||
+        parse_turbulence(cv, pattern) || parse_shape_modifier(cv, pattern, code) ||
         parse_number_modifier(cv, code))
         return true;
     if (parse_move(cv, &move)) {
@@ -323,16 +345,22 @@ static bool parse_modifier(Converter *cv, PatternUse use, PatternNode *pattern) 
 static void begin_pattern(PatternNode *pattern, const PatternInfo *info) {
     const Pattern standard = pattern_default();
     Pattern *shape = &pattern->shape;
+    bool brick = info->type == PATTERN_BRICK && pattern->info->type == PATTERN_BRICK;
     pattern->info = info;
     if (info->triangle)
         shape->wave = WAVE_TRIANGLE;
     if (info->still)
         shape->frequency = 0;
     shape->agate_turb = standard.agate_turb;
-    shape->brick_size = standard.brick_size;
-    shape->mortar = standard.mortar;
+    if (!brick) {
+        shape->brick_size = standard.brick_size;
+        shape->mortar = standard.mortar;
+    }
     memcpy(shape->quilted, standard.quilted, sizeof shape->quilted);
     shape->crackle = standard.crackle;
+    shape->facets = standard.facets;
+    if (info->list)
+        pattern->accuracy = normal_default().accuracy;
     shape->arms = standard.arms;
     shape->gradient = standard.gradient;
     if (info->type == PATTERN_AGATE)

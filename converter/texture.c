@@ -170,7 +170,6 @@ static bool parse_bare_part(Converter *cv, const TextureNode **texture) {
     ValueType type = peek_value_type(cv);
     if (type != VALUE_PIGMENT && type != VALUE_NORMAL && type != VALUE_FINISH)
         return false;
-    const Token *token = peek_token(cv);
     TextureNode *top = copy_texture(cv, *texture);
     const Value *value = accept_value(cv, type);
     if (!value)
@@ -180,20 +179,21 @@ static bool parse_bare_part(Converter *cv, const TextureNode **texture) {
     } else if (type == VALUE_FINISH) {
         top->finish = value->node;
     } else {
-        PatternNode normal = *(const PatternNode *)value->node;
-        normal.block_loc = keep_place(cv, token);
-        top->normal = copy_pattern(cv, &normal);
+        top->normal = value->node;
     }
     *texture = top;
     return true;
 }
 
-static const TextureNode *parse_moves(Converter *cv, const TextureNode *texture) {
+// Transforms and no_bump_scale. That alone does not make the texture another one: *flag.
+static const TextureNode *parse_moves(Converter *cv, const TextureNode *texture, bool *flag) {
     Move move;
     for (;;) {
         if (parse_move(cv, &move))
             texture = texture_moved(cv, texture, &move);
-        else if (!accept(cv, KW_no_bump_scale))
+        else if (accept(cv, KW_no_bump_scale))
+            *flag = true;
+        else
             return texture;
     }
 }
@@ -218,6 +218,7 @@ const TextureNode *parse_texture_body(Converter *cv) {
     const TextureNode *base = value ? value->node : cv->nodes->default_texture;
     enter_level(cv);
     const TextureNode *texture = base;
+    bool no_bump_scale = false;
     if (texture_is_plain(texture)) {
         while (parse_bare_part(cv, &texture)) {
         }
@@ -226,14 +227,19 @@ const TextureNode *parse_texture_body(Converter *cv) {
             before = texture;
             while (parse_part(cv, &texture)) {
             }
-            texture = parse_moves(cv, texture);
+            texture = parse_moves(cv, texture, &no_bump_scale);
         } while (texture != before);
         if (texture == base)
             texture = parse_patterned(cv, base);
     } else {
-        texture = parse_moves(cv, texture);
+        texture = parse_moves(cv, texture, &no_bump_scale);
     }
     leave_level(cv);
+    if (no_bump_scale) {
+        TextureNode *copy = copy_texture(cv, texture);
+        copy->no_bump_scale = true;
+        texture = copy;
+    }
     return texture;
 }
 

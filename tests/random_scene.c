@@ -41,6 +41,9 @@ float random_float(Rng *rng) {
 
 static bool random_bool(Rng *rng) { return rng_next(rng) % 2; }
 static uint32_t random_below(Rng *rng, uint32_t count) { return (uint32_t)(rng_next(rng) % count); }
+static uint32_t index_or_none(Rng *rng, uint32_t count) {
+    return random_bool(rng) ? NO_INDEX : random_below(rng, count);
+}
 static Vec3 random_vec3(Rng *rng) {
     double x = random_double(rng), y = random_double(rng);
     return vec3(x, y, random_double(rng));
@@ -140,6 +143,7 @@ static Transform random_transform(Rng *rng) {
     X(double, pattern.crackle.metric)                                                              \
     X(double, pattern.crackle.offset)                                                              \
     X(bool, pattern.crackle.solid)                                                                 \
+    X(FacetsShape, pattern.facets)                                                                 \
     X(bool, pattern.has_turbulence)                                                                \
     TURBULENCE_MEMBERS(X, pattern.turbulence)                                                      \
     X(uint32_t, pattern.warp_count)
@@ -339,11 +343,14 @@ static void make_pattern_shape(Rng *rng, Pattern *p) {
     p->crackle.metric = random_double(rng);
     p->crackle.offset = random_double(rng);
     p->crackle.solid = random_bool(rng);
+    p->facets = (FacetsShape){random_double(rng), random_double(rng), random_double(rng)};
 }
 
 static Pattern make_pattern(Rng *rng, Arena *arena) {
     Pattern p = pattern_default();
-    p.type = (PatternType)random_below(rng, PATTERN_MODELLED);
+    do
+        p.type = (PatternType)random_below(rng, PATTERN_MODELLED);
+    while (p.type == PATTERN_BUMPS || p.type == PATTERN_FACETS); // of normals only
     p.wave = (WaveType)random_below(rng, 6);
     p.frequency = random_float(rng);
     p.phase = random_float(rng);
@@ -401,11 +408,52 @@ static Finish make_finish(Rng *rng) {
     return f;
 }
 
-static Texture make_texture(Rng *rng, Arena *arena, uint32_t pigments) {
-    Texture t = {.layer_count = 1 + random_below(rng, 3), .uv_mapping = random_bool(rng)};
+// Entries of a map of normals or textures: only those of a lower index.
+static IndexEntry *make_entries(Rng *rng, Arena *arena, PatternType type, uint32_t below,
+                                uint32_t count) {
+    IndexEntry *entries = ARENA_ARRAY(arena, IndexEntry, count);
+    for (uint32_t i = 0; i < count; i++) {
+        float value = type == PATTERN_AVERAGE ? 1.5f : random_float(rng);
+        entries[i] = (IndexEntry){value, random_below(rng, below)};
+    }
+    return entries;
+}
+
+static Normal make_normal(Rng *rng, Arena *arena, uint32_t index) {
+    Normal n = {.pattern = make_pattern(rng, arena), .uv_mapping = random_bool(rng)};
+    if (n.pattern.type == PATTERN_PLAIN || (index == 0 && n.pattern.type == PATTERN_AVERAGE))
+        n.pattern.type = random_bool(rng) ? PATTERN_BUMPS : PATTERN_FACETS;
+    n.amount = random_float(rng);
+    n.accuracy = (float)rng_range(rng, 0.001, 1);
+    n.no_bump_scale = random_bool(rng);
+    if (n.pattern.type == PATTERN_AVERAGE || (index > 0 && random_bool(rng))) {
+        n.entry_count = 6;
+        n.entries = make_entries(rng, arena, n.pattern.type, index, n.entry_count);
+    } else {
+        n.slope_count = random_below(rng, 4);
+        n.slopes = ARENA_ARRAY(arena, SlopeEntry, n.slope_count);
+        for (uint32_t i = 0; i < n.slope_count; i++)
+            n.slopes[i] = (SlopeEntry){random_float(rng), random_double(rng), random_double(rng)};
+    }
+    return n;
+}
+
+static Texture make_texture(Rng *rng, Arena *arena, const Scene *scene, uint32_t index) {
+    Texture t = {.pattern = pattern_default(), .uv_mapping = random_bool(rng)};
+    t.no_bump_scale = random_bool(rng);
+    if (index > 0 && random_bool(rng)) {
+        t.pattern = make_pattern(rng, arena);
+        t.entry_count = 6;
+        if (t.pattern.type == PATTERN_PLAIN)
+            t.entry_count = t.uv_mapping = 1;
+        t.entries = make_entries(rng, arena, t.pattern.type, index, t.entry_count);
+        return t;
+    }
+    t.layer_count = 1 + random_below(rng, 3);
     t.layers = ARENA_ARRAY(arena, Layer, t.layer_count);
     for (uint32_t i = 0; i < t.layer_count; i++)
-        t.layers[i] = (Layer){random_below(rng, pigments), make_finish(rng)};
+        t.layers[i] = (Layer){random_below(rng, scene->pigment_count), make_finish(rng),
+                              index_or_none(rng, scene->normal_count)};
     return t;
 }
 
@@ -476,10 +524,6 @@ static void make_shape(Rng *rng, Arena *arena, Object *object) {
 }
 
 enum { MAX_OBJECTS = 200 };
-
-static uint32_t index_or_none(Rng *rng, uint32_t count) {
-    return random_bool(rng) ? NO_INDEX : random_below(rng, count);
-}
 
 // A list of objects and what hangs below; writes their indices to *items.
 static uint32_t make_objects(Rng *rng, Arena *arena, Scene *scene, int depth, uint32_t **items) {
@@ -601,8 +645,12 @@ Scene *random_scene(Rng *rng, Arena *arena) {
         scene->lights[i] = make_light(rng);
     for (uint32_t i = 0; i < scene->pigment_count; i++)
         scene->pigments[i] = make_pigment(rng, arena, i);
+    scene->normal_count = 1 + random_below(rng, 5);
+    scene->normals = ARENA_ARRAY(arena, Normal, scene->normal_count);
+    for (uint32_t i = 0; i < scene->normal_count; i++)
+        scene->normals[i] = make_normal(rng, arena, i);
     for (uint32_t i = 0; i < scene->texture_count; i++)
-        scene->textures[i] = make_texture(rng, arena, scene->pigment_count);
+        scene->textures[i] = make_texture(rng, arena, scene, i);
     for (uint32_t i = 0; i < scene->interior_count; i++)
         scene->interiors[i] = make_interior(rng);
     make_sky_sphere(rng, arena, scene);
@@ -696,13 +744,40 @@ static const char *finish_difference(const Finish *a, const Finish *b) {
 
 static const char *layer_difference(const Layer *a, const Layer *b) {
     COMPARE(uint32_t, pigment)
+    COMPARE(uint32_t, normal)
     return finish_difference(&a->finish, &b->finish);
 }
 
 static const char *texture_difference(const Texture *a, const Texture *b) {
     COMPARE(uint32_t, layer_count)
     COMPARE(bool, uv_mapping)
+    COMPARE(bool, no_bump_scale)
+    COMPARE(uint32_t, entry_count)
+    PATTERN_MEMBERS(COMPARE)
+    COMPARE_ALL(a->entries, b->entries, a->entry_count)
+    COMPARE_EACH(pattern.warps, pattern.warp_count, warp_difference)
     COMPARE_EACH(layers, layer_count, layer_difference)
+    return NULL;
+}
+
+static const char *slope_difference(const SlopeEntry *a, const SlopeEntry *b) {
+    COMPARE(float, value)
+    COMPARE(double, height)
+    COMPARE(double, slope)
+    return NULL;
+}
+
+static const char *normal_difference(const Normal *a, const Normal *b) {
+    PATTERN_MEMBERS(COMPARE)
+    COMPARE(float, amount)
+    COMPARE(float, accuracy)
+    COMPARE(bool, uv_mapping)
+    COMPARE(bool, no_bump_scale)
+    COMPARE(uint32_t, slope_count)
+    COMPARE(uint32_t, entry_count)
+    COMPARE_ALL(a->entries, b->entries, a->entry_count)
+    COMPARE_EACH(slopes, slope_count, slope_difference)
+    COMPARE_EACH(pattern.warps, pattern.warp_count, warp_difference)
     return NULL;
 }
 
@@ -797,6 +872,7 @@ const char *scene_difference(const Scene *a, const Scene *b) {
     COMPARE(uint32_t, rainbow_count)
     COMPARE(uint32_t, light_count)
     COMPARE(uint32_t, pigment_count)
+    COMPARE(uint32_t, normal_count)
     COMPARE(uint32_t, texture_count)
     COMPARE(uint32_t, interior_count)
     COMPARE(uint32_t, object_count)
@@ -817,6 +893,7 @@ const char *scene_difference(const Scene *a, const Scene *b) {
     COMPARE_EACH(rainbows, rainbow_count, rainbow_difference)
     COMPARE_EACH(lights, light_count, light_difference)
     COMPARE_EACH(pigments, pigment_count, pigment_difference)
+    COMPARE_EACH(normals, normal_count, normal_difference)
     COMPARE_EACH(textures, texture_count, texture_difference)
     COMPARE_EACH(interiors, interior_count, interior_difference)
     COMPARE_EACH(objects, object_count, object_difference)

@@ -125,7 +125,10 @@ uint32_t fixture_plain(Fixture *f, Color color) {
 
 uint32_t fixture_texture(Fixture *f, const Layer *layers, uint32_t count) {
     Texture texture = {.layers = arena_copy(f->arena, layers, count * sizeof *layers),
-                       .layer_count = count};
+                       .layer_count = count,
+                       .pattern = pattern_default()};
+    for (uint32_t i = 0; i < count; i++)
+        texture.layers[i].normal = NO_INDEX; // no test here bends one
     array_push(&f->textures, texture);
     return (uint32_t)f->textures.count - 1;
 }
@@ -362,11 +365,11 @@ void fixture_add_room(Fixture *f) {
         .entries = checks,
         .entry_count = 2,
     };
-    Layer layer = {fixture_pigment(f, wall), FINISH()};
+    Layer layer = {fixture_pigment(f, wall), FINISH(), NO_INDEX};
     Object object = fixture_plane(vec3(0, 0, 1), 4.0);
     object.texture = fixture_texture(f, &layer, 1);
     fixture_object(f, object);
-    layer = (Layer){fixture_plain(f, (Color){0.4f, 0.6f, 0.3f, 0.0f, 0.0f}), FINISH()};
+    layer = (Layer){fixture_plain(f, (Color){0.4f, 0.6f, 0.3f, 0.0f, 0.0f}), FINISH(), NO_INDEX};
     object = fixture_plane(vec3(0, 1, 0), -3.0);
     object.texture = fixture_texture(f, &layer, 1);
     fixture_object(f, object);
@@ -383,7 +386,7 @@ void fixture_add_sphere(Fixture *f, Vec3 center, double radius, const char *text
 }
 
 uint32_t fixture_one_layer(Fixture *f, Color color, Finish finish) {
-    Layer layer = {fixture_plain(f, color), finish};
+    Layer layer = {fixture_plain(f, color), finish, NO_INDEX};
     return fixture_texture(f, &layer, 1);
 }
 

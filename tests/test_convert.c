@@ -381,7 +381,7 @@ static void gaps_are_said_when_used(void **state) {
                  "2:17: error: 'blob' is not modelled");
     Converted result =
         convert_text("#declare I = 0; #while (I < 5) sphere { I, 1 pigment { tiling 3 } "
-                     "normal { bumps } } #declare I = I + 1; #end");
+                     "normal { tiling 3 } } #declare I = I + 1; #end");
     assert_int_equal(result.warnings, 2); // once a place
     result = convert_text("#declare P = pigment { wood turbulence 1 scale 2 };\n");
     assert_int_equal(result.warnings, 1); // no object

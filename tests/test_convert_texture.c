@@ -241,23 +241,84 @@ static void middle_colors(void **state) {
     assert_color(p.color, 0.5, 0.5, 0.5, 0, 0.5);
     p = pigment("", "pigment { aoi pigment_map { [0 rgb x][0.5 checker rgb y rgb z][1 rgb 0] }}");
     assert_color(p.color, 0, 0.5, 0.5, 0, 0);
-    p = pigment("", "texture { bozo texture_map { [0 pigment { rgb x }][1 pigment { rgb y }] } }");
+    p = pigment("", "texture { tiling 3 texture_map { [0 pigment { rgb x }][1 pigment { rgb y }] "
+                    "} }");
     assert_color(p.color, 0, 1, 0, 0, 0);
     assert_warns("sphere { 0, 1 pigment { tiling 3 } }", "the pattern 'tiling' is not modelled");
-    assert_warns("sphere { 0, 1 texture { bozo texture_map { [0 pigment { rgb 1 }] } } }",
-                 "a texture with 'bozo'");
+    assert_warns("sphere { 0, 1 texture { tiling 1 texture_map { [0 pigment { rgb 1 }] } } }",
+                 "a texture with 'tiling'");
     assert_warns("sphere { 0, 1 pigment { image_map { png \"none.png\" once } } }", "grey");
-    assert_warns("sphere { 0, 1 pigment { rgb 1 } normal { bumps 0.5 } }", "normal is not");
-    assert_silent("sphere { 0, 1 pigment { rgb 1 } normal { bumps 0 } }");
+    assert_warns("sphere { 0, 1 pigment { rgb 1 } normal { tiling 3 } }", "a normal with 'tiling'");
+    assert_silent("sphere { 0, 1 pigment { rgb 1 } normal { bumps 0.5 } }");
 }
 
 // What belongs to single patterns; each keyword brings its defaults along.
+// What normals have besides their pattern, and where no_bump_scale comes from.
+static void normal_members(void **state) {
+    (void)state;
+    const Scene *s = scene_of(
+        "sphere { 0, 1 pigment { rgb 1 } normal { granite 0.3 accuracy 0.01 slope_map { [0 <1,2>] "
+        "[0.5 <3,4>] } } } sphere { 3, 1 texture { pigment { rgb 1 } normal { average normal_map { "
+        "[2 facets size 0.5 metric 3 coords 0.25] [bumps bump_size 0.7 no_bump_scale] } } "
+        "no_bump_scale } } sphere { 6, 1 pigment { rgb 1 } normal { uv_mapping checker 0.4 } }");
+    const Normal *granite = &s->normals[0], *facets = &s->normals[1], *average = &s->normals[3];
+    assert_int_equal(s->normal_count, 5);
+    assert_near(granite->amount, 0.3f);
+    assert_near(granite->accuracy, 0.01f);
+    assert_int_equal(granite->slope_count, 2);
+    assert_near(granite->slopes[1].value, 0.5);
+    assert_near(granite->slopes[1].height, 3);
+    assert_near(granite->slopes[1].slope, 4);
+    assert_false(granite->no_bump_scale || granite->uv_mapping);
+    assert_near(facets->pattern.facets.size, 0.5);
+    assert_near(facets->pattern.facets.metric, 3);
+    assert_near(facets->pattern.facets.coords, 0.25);
+    assert_int_equal(s->normals[2].pattern.type, PATTERN_BUMPS);
+    assert_near(s->normals[2].amount, 0.7f);
+    assert_int_equal(average->pattern.type, PATTERN_AVERAGE);
+    assert_near(average->entries[0].value, 2);
+    assert_near(average->entries[1].value, 1);
+    assert_int_equal(average->entries[1].index, 2);
+    assert_true(average->no_bump_scale && facets->no_bump_scale);
+    assert_true(s->normals[4].uv_mapping && s->normals[4].entry_count == 0);
+    assert_int_equal(s->textures[1].layers[0].normal, 3);
+
+    // One normal, used with and without the flag, is two.
+    s = scene_of(
+        "#declare N = normal { bumps } #declare T = texture { pigment { rgb 1 } normal { N "
+        "} } sphere { 0, 1 texture { checker texture { T } texture { T } no_bump_scale } "
+        "} sphere { 3, 1 texture { T } }");
+    assert_int_equal(s->normal_count, 2);
+    assert_int_equal(s->texture_count, 3);
+    assert_true(s->normals[0].no_bump_scale && !s->normals[1].no_bump_scale);
+}
+
+static void patterned_textures(void **state) {
+    (void)state;
+    const Scene *s = scene_of(
+        "sphere { 0, 1 texture { tiles { texture { pigment { rgb x } } tile2 texture { pigment { "
+        "rgb y } } } scale 2 } } sphere { 3, 1 texture { uv_mapping gradient x texture_map { [0.25 "
+        "pigment { rgb x }] [1 pigment { rgb z }] } } }");
+    const Texture *tiles = &s->textures[2], *map = &s->textures[4], *uv = &s->textures[5];
+    assert_int_equal(s->texture_count, 6);
+    assert_int_equal(tiles->pattern.type, PATTERN_CHECKER);
+    assert_near(s->pigments[s->textures[tiles->entries[1].index].layers[0].pigment].color.r, 1);
+    assert_int_equal(tiles->pattern.warp_count, 1);
+    assert_int_equal(map->pattern.type, PATTERN_GRADIENT);
+    assert_near(map->entries[0].value, 0.25);
+    assert_true(uv->uv_mapping && uv->entry_count == 1 && uv->entries[0].index == 4);
+}
+
 static void pattern_members(void **state) {
     (void)state;
     Pattern p = pigment("", "pigment { brick brick_size <1,2,3> mortar 0.25 }").pattern;
     assert_vec(p.brick_size, 1, 2, 3);
     assert_near(p.mortar, 0.25);
     p = pigment("#declare B = pigment { brick mortar 0.25 }", "pigment { B brick }").pattern;
+    assert_near(p.mortar, 0.25); // the same keyword again leaves it, as in POV-Ray
+    p = pigment("#declare B = pigment { brick mortar 0.25 } #declare C = pigment { B onion }",
+                "pigment { C brick }")
+            .pattern;
     assert_near(p.mortar, 0.5);
     p = pigment("#declare B = pigment { brick mortar 0.25 }", "pigment { B scale 2 }").pattern;
     assert_near(p.mortar, 0.25);
@@ -451,6 +512,8 @@ int main(void) {
         cmocka_unit_test(finishes),
         cmocka_unit_test(materials),
         cmocka_unit_test(middle_colors),
+        cmocka_unit_test(normal_members),
+        cmocka_unit_test(patterned_textures),
         cmocka_unit_test(pattern_members),
         cmocka_unit_test(warps),
         cmocka_unit_test(missing_patterns),

@@ -49,6 +49,7 @@ static Scene *ball(Arena *arena) {
                                          .roughness = 0.05f,
                                          .reflection_falloff = 1,
                                          .reflection_exponent = 1};
+    texture->layers[0].normal = NO_INDEX;
     texture->layer_count = 1;
     Object *object = scene->objects = ARENA_NEW(arena, Object);
     *object = (Object){.type = OBJECT_SPHERE,

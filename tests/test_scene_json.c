@@ -149,7 +149,9 @@ static Scene *small_scene(Arena *arena, uint32_t patches) {
     scene->pigment_count = 1;
     scene->textures = ARENA_NEW(arena, Texture);
     scene->textures[0].layers = ARENA_NEW(arena, Layer);
+    scene->textures[0].pattern = pattern_default();
     scene->textures[0].layers[0].finish = finish_default();
+    scene->textures[0].layers[0].normal = NO_INDEX;
     scene->textures[0].layer_count = scene->texture_count = 1;
     scene->objects = ARENA_ARRAY(arena, Object, patches);
     scene->roots = ARENA_ARRAY(arena, uint32_t, patches);

@@ -31,7 +31,7 @@ typedef struct {
 static void add_row(Fixture *f, const Row *row, int index) {
     fixture_text(f, "sphere { <%.17g, 0, 0>, 1 pigment { %s } finish { %s } interior { %s } }\n",
                  CELL * index, row->pigment, row->finish, row->interior ? row->interior : "");
-    Layer layer = {fixture_plain(f, row->color), row->value};
+    Layer layer = {fixture_plain(f, row->color), row->value, NO_INDEX};
     Object sphere = fixture_sphere(vec3(CELL * index, 0, 0), 1.0);
     sphere.texture = fixture_texture(f, &layer, 1);
     if (row->interior != NULL)

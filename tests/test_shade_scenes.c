@@ -33,11 +33,13 @@ static void check_layers(int version) {
     Layer layers[3] = {
         {fixture_plain(f, (Color){0.4f, 0.4f, 0.9f, 0.7f, 0.0f}),
          FINISH(.ambient = GREY3(0.3f), .reflection_min = GREY3(0.15f),
-                .reflection_max = GREY3(0.15f))},
+                .reflection_max = GREY3(0.15f)),
+         NO_INDEX},
         {fixture_plain(f, (Color){0.9f, 0.5f, 0.1f, 0.3f, 0.2f}),
          FINISH(.specular = 0.3f, .reflection_min = GREY3(0.2f), .reflection_max = GREY3(0.6f),
-                .conserve_energy = true)},
-        {fixture_plain(f, (Color){0.2f, 0.8f, 0.4f, 0.0f, 0.3f}), FINISH(.phong = 0.4f)},
+                .conserve_energy = true),
+         NO_INDEX},
+        {fixture_plain(f, (Color){0.2f, 0.8f, 0.4f, 0.0f, 0.3f}), FINISH(.phong = 0.4f), NO_INDEX},
     };
     char text[1024];
     snprintf(text, sizeof text, "%s %s %s interior { ior 1.2 }", bottom, middle, top);
@@ -280,7 +282,7 @@ static void quality_levels(void **state) {
         Pigment quick = {.color = {1.0f, 0.0f, 0.0f, 0.0f, 0.0f},
                          .has_quick_color = true,
                          .quick_color = {0.2f, 0.9f, 0.4f, 0.0f, 0.0f}};
-        Layer layer = {fixture_pigment(f, quick), FINISH()};
+        Layer layer = {fixture_pigment(f, quick), FINISH(), NO_INDEX};
         Object sphere = fixture_sphere(vec3(-0.8, 0.1, -4), 0.5);
         sphere.texture = fixture_texture(f, &layer, 1);
         fixture_object(f, sphere);
@@ -328,7 +330,7 @@ static void patches(void **state) {
         .entries = checks,
         .entry_count = 2,
     };
-    Layer layer = {fixture_pigment(f, pigment), FINISH(.phong = 0.5f)};
+    Layer layer = {fixture_pigment(f, pigment), FINISH(.phong = 0.5f), NO_INDEX};
     Object object = fixture_sphere(vec3(0, 0, 0), 1.0); // for what all objects have
     object.texture = fixture_texture(f, &layer, 1);
     Object by_object = object, by_pigment = object, two_sided = object;

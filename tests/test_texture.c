@@ -12,6 +12,7 @@
 #include "digits.h"
 #include "texture/noise.h"
 #include "texture/pattern.h"
+#include "texture/pigment.h"
 #include "texture/texture.h"
 
 typedef struct {
@@ -23,7 +24,9 @@ typedef ARRAY(Row) Rows;
 
 static Arena *arena;
 
-static const Settings settings = {.noise_generator = 2, .number_of_waves = 10};
+static const Scene empty = {.settings = {.noise_generator = 2, .number_of_waves = 10}};
+static const Textures no_textures = {.scene = &empty};
+static const TextureHit nowhere;
 
 static int setup(void **state) {
     (void)state;
@@ -47,8 +50,8 @@ static void check_rows(const Rows *rows) {
     for (size_t r = 0; r < rows->count; r++)
         for (int i = 0; i < DIGITS_POINTS; i++) {
             const Pattern *pattern = &rows->items[r].pattern;
-            double have =
-                pattern_value(&settings, pattern, pattern_point(pattern, digits_point(i)));
+            double have = pattern_value(&no_textures, pattern, &nowhere,
+                                        pattern_point(pattern, digits_point(i)));
             digits_equal(digits, have, *want++, rows->items[r].text, i);
         }
     digits_finish(digits);
@@ -248,7 +251,7 @@ static void far_away(void **state) {
             Pattern pattern = turbulent(of_type((PatternType)type), 0.1, 0.2, 0.3);
             pattern.gradient = vec3(1, 0, 0);
             Vec3 p = vec3(far[i % COUNT], far[i / COUNT % COUNT], far[i / COUNT / COUNT]);
-            double v = pattern_value(&settings, &pattern, pattern_point(&pattern, p));
+            double v = pattern_value(&no_textures, &pattern, &nowhere, pattern_point(&pattern, p));
             if (!(v >= 0.0 && v <= 1.00001))
                 fail_msg("pattern %d at %g, %g, %g: %g", type, p.x, p.y, p.z, v);
         }
@@ -335,7 +338,7 @@ static void warps(void **state) {
 // ---- maps -------------------------------------------------------------------------------------
 
 static Scene scene_of(Pigment *pigments, uint32_t count) {
-    Scene scene = {.settings = settings, .pigments = pigments, .pigment_count = count};
+    Scene scene = {.settings = empty.settings, .pigments = pigments, .pigment_count = count};
     return scene;
 }
 
@@ -349,9 +352,9 @@ static void check_pigment(const char *text, const Scene *scene, uint32_t pigment
     const double *want = digits_run(digits);
     for (int c = 0; c < 5; c++)
         for (int i = 0; i < DIGITS_POINTS; i++) {
-            TexturePoint at = {.p = digits_point(i)};
+            const Textures textures = {.scene = scene};
             Color have;
-            assert_true(pigment_color(scene, pigment, &at, &have));
+            assert_true(pigment_color(&textures, pigment, &nowhere, digits_point(i), &have));
             const float values[5] = {have.r, have.g, have.b, have.filter, have.transmit};
             digits_equal(digits, values[c], *want++, channels[c], i);
         }
@@ -429,9 +432,9 @@ static void listed_patterns(void **state) {
             .pattern = listed(kinds[k].type), .entries = entries, .entry_count = kinds[k].count};
         Scene scene = scene_of(&pigment, 1);
         for (int i = 0; i < DIGITS_POINTS; i++) {
-            TexturePoint at = {.p = digits_point(i)};
+            const Textures textures = {.scene = &scene};
             Color have;
-            pigment_color(&scene, 0, &at, &have);
+            pigment_color(&textures, 0, &nowhere, digits_point(i), &have);
             digits_equal(digits, have.r, *want++, kinds[k].name, i);
         }
     }
@@ -447,21 +450,45 @@ static void uv_and_quick(void **state) {
         {.color = {1, 1, 1, 0, 0}, .has_quick_color = true, .quick_color = {0, 0, 1, 0, 0}},
     };
     Scene scene = scene_of(pigments, 3);
-    Layer layer = {.pigment = 0};
-    Texture texture = {.layers = &layer, .layer_count = 1};
+    const Textures textures = {.scene = &scene};
+    TextureHit hit = {.u = 0.25, .v = 0.5};
     Vec3 p = vec3(0.75, 0.9, 0.3);
     Color c;
-    TexturePoint at = texture_point(&texture, false, p, 0.25, 0.5, false);
-    assert_true(pigment_color(&scene, 0, &at, &c) && c.r == 0.75f);
-    assert_true(pigment_color(&scene, 1, &at, &c) && c.r == 0.5f); // always at (u, v, 0)
-    at = texture_point(&texture, true, p, 0.25, 0.5, false);       // the object's flag
-    assert_true(pigment_color(&scene, 0, &at, &c) && c.r == 0.25f);
-    texture.uv_mapping = true;
-    at = texture_point(&texture, false, p, 0.25, 0.5, true);
-    assert_true(pigment_color(&scene, 0, &at, &c) && c.r == 0.25f);
-    assert_true(pigment_color(&scene, 2, &at, &c) && c.r == 0.0f && c.b == 1.0f);
-    at.quick = false;
-    assert_true(pigment_color(&scene, 2, &at, &c) && c.r == 1.0f);
+    assert_true(pigment_color(&textures, 0, &hit, p, &c) && c.r == 0.75f);
+    assert_true(pigment_color(&textures, 1, &hit, p, &c) && c.r == 0.5f); // always at (u, v, 0)
+    assert_true(pigment_color(&textures, 2, &hit, p, &c) && c.r == 1.0f);
+    hit.quick = true;
+    assert_true(pigment_color(&textures, 2, &hit, p, &c) && c.r == 0.0f && c.b == 1.0f);
+}
+
+// A texture with uv_mapping, alone or in a map: where its layers are.
+static void texture_places(void **state) {
+    (void)state;
+    Layer layer = {.pigment = 0, .normal = NO_INDEX};
+    IndexEntry entries[2] = {{0.25f, 0}, {0.75f, 1}}, one = {1.0f, 2};
+    Texture pool[4] = {{.layers = &layer, .layer_count = 1},
+                       {.layers = &layer, .layer_count = 1, .uv_mapping = true},
+                       {.pattern = gradient(1, 0, 0), .entries = entries, .entry_count = 2},
+                       {.uv_mapping = true, .entries = &one, .entry_count = 1}};
+    Scene scene = {.settings = empty.settings, .textures = pool, .texture_count = 4};
+    const Textures textures = {.scene = &scene};
+    TextureHit hit = {.u = 0.375, .v = 0.5};
+    TextureSpaces spaces = {.count = 0};
+    Vec3 p = vec3(0.5, 0.9, 0.3);
+    TextureChoice choice = texture_choose(&textures, 0, &spaces, &hit, p);
+    assert_true(choice.layers == &pool[0] && choice.p.x == 0.5 && spaces.count == 0);
+    choice = texture_choose(&textures, 1, &spaces, &hit, p);
+    assert_true(choice.layers == &pool[1] && choice.p.x == 0.375 && spaces.count == 1);
+    choice = texture_choose(&textures, 2, &spaces, &hit, p);
+    assert_true(choice.layers == NULL && !choice.average && spaces.count == 2);
+    assert_true(choice.first == 1 && choice.second == 0 && choice.share == 0.5);
+    choice = texture_choose(&textures, 3, &spaces, &hit, p);
+    assert_true(choice.first == 0 && choice.second == 0 && choice.p.x == 0.375);
+    choice = texture_choose(&textures, choice.entries[0].index, &spaces, &hit, choice.p);
+    assert_true(choice.share == 0.25);
+    spaces.count = TEXTURE_SPACES; // full: nothing is written beyond
+    texture_choose(&textures, 1, &spaces, &hit, p);
+    assert_int_equal(spaces.count, TEXTURE_SPACES);
 }
 
 // A map is as transparent as its most transparent entry, in whatever depth; one opaque layer
@@ -486,6 +513,14 @@ static void opacity(void **state) {
     assert_false(texture_is_opaque(&scene, 0));
     assert_true(texture_is_opaque(&scene, 1));
     assert_true(texture_is_opaque(&scene, NO_INDEX));
+    IndexEntry mixed[2] = {{0.0f, 0}, {1.0f, 1}}, solid[2] = {{0.0f, 1}, {1.0f, 1}};
+    Texture maps[4] = {textures[0],
+                       textures[1],
+                       {.pattern = gradient(1, 0, 0), .entries = mixed, .entry_count = 2},
+                       {.pattern = gradient(1, 0, 0), .entries = solid, .entry_count = 2}};
+    scene.textures = maps, scene.texture_count = 4;
+    assert_false(texture_is_opaque(&scene, 2));
+    assert_true(texture_is_opaque(&scene, 3));
 }
 
 int main(void) {
@@ -495,7 +530,7 @@ int main(void) {
         cmocka_unit_test(far_away),        cmocka_unit_test(warps),
         cmocka_unit_test(color_map),       cmocka_unit_test(pigment_map),
         cmocka_unit_test(listed_patterns), cmocka_unit_test(uv_and_quick),
-        cmocka_unit_test(opacity),
+        cmocka_unit_test(opacity),         cmocka_unit_test(texture_places),
     };
     return cmocka_run_group_tests_name("texture", tests, setup, teardown);
 }

@@ -112,6 +112,105 @@ static const Row WARPS[] = {
          "[1 rgb y] } scale 0.5 } #declare G = pigment { M gradient y } pigment { G }"},
 };
 
+#define N(text)                                                                                    \
+    { "", "pigment { rgb <0.9,0.8,0.6> } finish { phong 0.5 specular 0.3 } normal { " text " }" }
+
+static const Row NORMALS[] = {
+    N("bumps 0.6 scale 0.3"),
+    N("bumps scale <0.2,0.5,0.1> rotate 20 turbulence 0.4 bump_size 0.8"),
+    N("dents 0.9 scale 0.2 noise_generator 3"),
+    N("wrinkles 0.6 scale 0.7"),
+    N("ripples 0.5 frequency 3 phase 0.2 scale 0.6"),
+    N("waves 0.4 frequency 4 scale 0.7 translate 0.3"),
+    N("quilted 0.7 control0 0.3 control1 0.8 scale 0.5"),
+    N("facets size 0.4"),
+    N("facets coords 0.6 scale 0.3 rotate 30"),
+    N("facets coords 0.5 metric 1 scale 0.4"),
+    N("facets size 0.3 metric 3"),
+    N("granite 0.3 scale 2"),
+    N("granite 0.4 accuracy 0.005 turbulence 0.3"),
+    N("bozo 0.8 scale 0.4"),
+    N("spotted 0.8 scale 0.4 noise_generator 1"),
+    N("gradient x, 0.6 scale 0.5 triangle_wave"),
+    N("leopard 0.7 scale 0.1"),
+    N("marble 0.5 turbulence 0.6 scale 0.5"),
+    N("wood 0.5 scale 0.3 turbulence 0.1 rotate 80*x"),
+    N("crackle 0.8 scale 0.5"),
+    N("agate 0.4 scale 0.6"),
+    N("brick 0.5 scale 0.15"),
+    N("checker 0.4 scale 0.5"),
+    N("hexagon 0.4 scale 0.5 rotate 90*x"),
+    N("radial 0.6 frequency 8 rotate 90*x"),
+    N("spiral1 4, 0.6"),
+    N("onion 0.8 scale 0.5 sine_wave"),
+    N("gradient y, 0.7 slope_map { [0 <0,1>] [0.3 <1,1>] [0.3 <1,-1>] [0.7 <0.2,0>] [1 <0,0>] } "
+      "scale 0.6"),
+    N("bozo 0.5 slope_map { [0.2 <0,0.5>] [0.8 <1,-0.5>] } scale 0.3 turbulence 0.2"),
+    N("gradient x normal_map { [0.2 bumps 0.7 scale 0.2] [0.6 granite 0.4 scale 0.6] [0.9 ripples "
+      "0.4 frequency 3 scale 0.4] } scale 1.2 rotate 30"),
+    N("checker normal { bumps 0.6 scale 0.2 } normal { quilted 0.8 scale 0.3 } scale 0.8 rotate "
+      "10"),
+    N("hexagon normal { bumps 0.6 scale 0.2 } normal { granite 0.3 } normal { wood } rotate 90*x"),
+    N("average normal_map { [1 bumps 0.8 scale 0.3] [2 waves 0.5 frequency 3] [0.5 facets size "
+      "0.2] "
+      "} scale <1,0.6,1>"),
+    N("bumps 0.5 scale 0.2 no_bump_scale"),
+    N("granite 0.2 scale <0.3,1,0.5> rotate 40 no_bump_scale"),
+    N("gradient x normal_map { [0 bumps 1 scale 0.1] [1 wrinkles 1] } scale 2 no_bump_scale"),
+    N("uv_mapping bumps 0.6 scale 0.05"),
+    N("uv_mapping gradient x, 0.4 scale 0.2 sine_wave"),
+    N("bumps 0.6 scale 0.4 warp { repeat x flip x } warp { turbulence 0.3 }"),
+    {"", "texture { pigment { rgb 0.7 } normal { bumps 0.5 } scale 0.2 rotate 30 } "
+         "texture { pigment { bozo color_map { [0.4 rgbt 1] [0.6 rgb x] } scale 0.4 } normal { "
+         "gradient y, 0.5 scale 0.4 } }"},
+    {"", "texture { pigment { rgb 0.7 } normal { bumps 0.5 } scale 0.2 no_bump_scale }"},
+    {"", "pigment { rgb 0.2 } finish { reflection { 0.3, 0.8 } specular 0.4 } normal { bumps 0.3 "
+         "scale 0.5 }"},
+    {"", "pigment { rgbf <0.9,1,0.9,0.8> } finish { reflection 0.1 } interior { ior 1.3 } normal { "
+         "bumps 0.3 scale 0.5 } } plane { z, 4 pigment { checker rgb 1 rgb x }"},
+};
+
+static const Row TEXTURES[] = {
+    {"", "texture { gradient y texture_map { [0.2 pigment { rgb x } finish { phong 1 } ] [0.7 "
+         "pigment { checker scale 0.2 } normal { bumps 0.6 scale 0.2 }] } scale 1.3 rotate 20 }"},
+    {"", "texture { checker texture { pigment { rgb x } } texture { pigment { bozo } normal { "
+         "ripples 0.5 scale 0.3 } } scale 0.6 }"},
+    {"", "texture { brick texture { pigment { rgb 0.8 } } texture { pigment { granite } normal { "
+         "dents 0.7 scale 0.2 } } scale 0.2 }"},
+    {"", "texture { hexagon texture { pigment { rgb x } } texture { pigment { rgb z } } rotate "
+         "90*x scale 0.5 }"},
+    {"", "texture { tiles { texture { pigment { rgb x } } tile2 texture { pigment { rgb y } } } "
+         "scale 0.5 }"},
+    {"",
+     "texture { average texture_map { [1 pigment { rgb x } finish { reflection 0.3 }] [2 pigment "
+     "{ bozo scale 0.3 } normal { bumps scale 0.2 }] } scale 0.8 rotate 40 }"},
+    {"", "texture { bozo texture_map { [0.3 pigment { rgb x } normal { bumps 0.4 scale 0.3 }] [0.6 "
+         "gradient x texture_map { [0 pigment { rgb y } normal { granite 0.2 }] [1 pigment { rgb z "
+         "} normal { bumps 0.9 scale 0.2 }] } rotate 30 scale <0.3,0.7,1>] } scale 0.6 turbulence "
+         "0.3 }"},
+    {"", "texture { gradient x texture_map { [0.3 wood texture_map { [0 pigment { rgb y } normal { "
+         "bumps 0.6 scale 0.3 }] [1 pigment { rgb 1 }] } rotate 50 scale 0.4] [0.8 pigment { rgb x "
+         "} normal { wrinkles 0.6 scale 0.5 }] } scale <2,1,0.4> rotate 25 }"},
+    {"", "texture { uv_mapping pigment { checker scale 0.1 } normal { bumps 0.5 scale 0.05 } }"},
+    {"", "texture { uv_mapping gradient x texture_map { [0.3 pigment { rgb x }] [0.7 pigment { rgb "
+         "y } normal { bumps 0.6 scale 0.1 }] } scale 0.3 rotate 20 } rotate 10*z"},
+    {"",
+     "texture { gradient x texture_map { [0.3 uv_mapping pigment { checker scale 0.1 } normal { "
+     "bumps scale 0.1 }] [0.7 pigment { rgb y } normal { bumps 0.6 scale 0.1 }] } scale 2 }"},
+    {"",
+     "texture { #declare A = texture { pigment { rgb x } } texture { pigment { bozo color_map { "
+     "[0.4 rgbt 1] [0.5 rgb z] } scale 0.3 } finish { reflection 0.2 } } spherical texture_map "
+     "{ [0.2 A] [0.5 A pigment { rgb y }] } scale 3 no_bump_scale }"},
+    {"",
+     "texture { pigment { rgbt <0.8,0.9,1,0.7> } normal { bumps 0.4 } } interior { caustics 0.6 "
+     "ior 1.2 } } plane { z, 3 pigment { checker rgb 1 rgb 0.6 }"},
+    {"",
+     "texture { checker texture { pigment { rgbt <0.8,0.9,1,0.9> } } texture { pigment { rgb x } "
+     "} scale 0.4 } } plane { z, 3 pigment { checker rgb 1 rgb 0.6 }"},
+    {"", "pigment { rgb x } interior_texture { gradient y texture_map { [0 pigment { rgb y }] [1 "
+         "pigment { rgb z } normal { bumps 0.6 scale 0.2 }] } } rotate 180*y"},
+};
+
 #define T(file, name, more)                                                                        \
     { file, "texture { " name " " more " }" }
 
@@ -254,6 +353,16 @@ static void standard_textures(void **state) {
     check_rows(INCLUDES, sizeof INCLUDES / sizeof *INCLUDES);
 }
 
+static void normals(void **state) {
+    (void)state;
+    check_rows(NORMALS, sizeof NORMALS / sizeof *NORMALS);
+}
+
+static void patterned_textures(void **state) {
+    (void)state;
+    check_rows(TEXTURES, sizeof TEXTURES / sizeof *TEXTURES);
+}
+
 static void interiors(void **state) {
     (void)state;
     check_rows(INTERIORS, sizeof INTERIORS / sizeof *INTERIORS);
@@ -261,10 +370,9 @@ static void interiors(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(patterns),
-        cmocka_unit_test(warps_and_maps),
-        cmocka_unit_test(standard_textures),
-        cmocka_unit_test(interiors),
+        cmocka_unit_test(patterns),          cmocka_unit_test(warps_and_maps),
+        cmocka_unit_test(standard_textures), cmocka_unit_test(interiors),
+        cmocka_unit_test(normals),           cmocka_unit_test(patterned_textures),
     };
     return cmocka_run_group_tests_name("texture_scenes", tests, NULL, NULL);
 }

@@ -11,12 +11,20 @@
 // |a x b|^2 <= 4 (1e60)^4 = 4e240 < 1e308.
 #define MAX_COORDINATE 1e60
 
+// Records that refer to each other.
+typedef struct {
+    const char *name; // of one
+    uint32_t count;
+    uint8_t *met; // per record: 0 not yet, 1 on the way down, 2 good
+    double *cost; // of the good ones
+} CheckPool;
+
 typedef struct {
     const Scene *scene;
     const char *file;
     const uint32_t *positions;
-    bool *met;            // per object: already part of a tree
-    uint8_t *pigment_met; // per pigment: 0 not yet, 1 on the way down, 2 good
+    bool *met; // per object: already part of a tree
+    CheckPool pigments, normals, textures;
 } Check;
 
 #define refuse(c, path, ...) path_die((c)->file, path, __VA_ARGS__)
@@ -39,8 +47,7 @@ void check_index(const Check *c, const FieldPath *path, uint32_t index, uint32_t
 void check_transform(const Check *c, const FieldPath *up, const char *name, const Transform *t);
 
 // check_texture.c
-void check_pigments(Check *c);
-void check_textures(const Check *c);
+void check_texture_pools(const Check *c);
 void check_turbulence(const Check *c, const FieldPath *path, const Turbulence *turbulence);
 
 #endif

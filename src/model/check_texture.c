@@ -87,7 +87,7 @@ static uint32_t least_entries(PatternType type) {
 
 // The members that belong to one pattern each, whether it is that pattern or not: they are few.
 static void check_pattern_shape(const Check *c, const FieldPath *path, const Pattern *pattern) {
-    const FieldPath crackle = path_field(path, "crackle");
+    const FieldPath crackle = path_field(path, "crackle"), facets = path_field(path, "facets");
     check_float(c, path, "agate_turb", pattern->agate_turb);
     check_vec3(c, path, "brick_size", pattern->brick_size);
     check_float(c, path, "mortar", pattern->mortar);
@@ -95,6 +95,9 @@ static void check_pattern_shape(const Check *c, const FieldPath *path, const Pat
     check_vec3(c, &crackle, "form", pattern->crackle.form);
     check_numbers(c, &crackle, "metric", &pattern->crackle.metric, 1);
     check_numbers(c, &crackle, "offset", &pattern->crackle.offset, 1);
+    check_numbers(c, &facets, "size", &pattern->facets.size, 1);
+    check_numbers(c, &facets, "coords", &pattern->facets.coords, 1);
+    check_numbers(c, &facets, "metric", &pattern->facets.metric, 1);
     for (int i = 0; i < 3; i++) {
         const FieldPath size = path_field(path, "brick_size");
         if (pattern->type == PATTERN_BRICK && vec_get(pattern->brick_size, i) == 0)
@@ -124,54 +127,140 @@ static void check_pattern(const Check *c, const FieldPath *path, const Pattern *
     }
 }
 
-static void check_weights(const Check *c, const FieldPath *path, const Pigment *pigment) {
-    float sum = 0;
-    for (uint32_t i = 0; i < pigment->entry_count; i++)
-        sum += pigment->entries[i].value;
+// ---- maps -----------------------------------------------------------------------------------
+
+// The weights of an average are of no use when they add up to nothing.
+static void check_weights(const Check *c, const FieldPath *path, float sum) {
     const FieldPath map = path_field(path, "map");
     if (sum == 0 || !isfinite(sum))
         refuse(c, &map, "the weights add up to %g", (double)sum);
 }
 
-// Pigments refer to pigments through maps: a good one is looked at once, and one that is met again
-// on the way down leads to itself.
-static void check_pigment(Check *c, const FieldPath *path, uint32_t index, int depth) {
-    const Pigment *pigment = &c->scene->pigments[index];
-    if (c->pigment_met[index] == 2)
-        return;
-    if (c->pigment_met[index] == 1)
-        refuse(c, path, "pigment %u is part of itself", index);
+// Records refer to records of their pool through maps: a good one is looked at once, and one that
+// is met again on the way down leads to itself. False: it was looked at before.
+static bool enter_record(const Check *c, const FieldPath *path, const CheckPool *pool,
+                         uint32_t index, int depth) {
+    check_index(c, path, index, pool->count, pool->name);
+    if (pool->met[index] == 2)
+        return false;
+    if (pool->met[index] == 1)
+        refuse(c, path, "%s %u is part of itself", pool->name, index);
     if (depth > SCENE_MAX_DEPTH)
-        refuse(c, path, "more than %d pigment maps inside one another", SCENE_MAX_DEPTH);
-    c->pigment_met[index] = 1;
+        refuse(c, path, "more than %d %s maps inside one another", SCENE_MAX_DEPTH, pool->name);
+    pool->met[index] = 1;
+    return true;
+}
+
+// How many records one point can make the renderer look at: two entries of a map, all of an
+// average. Maps that share their entries multiply it while the file stays small.
+typedef struct {
+    bool all;
+    double sum, first, second; // of all entries; the two largest
+} Cost;
+
+static void cost_add(Cost *cost, double entry) {
+    cost->sum += entry;
+    if (entry > cost->first)
+        cost->second = cost->first, cost->first = entry;
+    else if (entry > cost->second)
+        cost->second = entry;
+}
+
+static void leave_record(const Check *c, const FieldPath *path, const CheckPool *pool,
+                         uint32_t index, const Cost *cost) {
+    static const double MOST = 1e5;
+    double total = 1 + (cost->all ? cost->sum : cost->first + cost->second);
+    if (total > MOST)
+        refuse(c, path, "%g evaluations at each point are more than %g", total, MOST);
+    pool->cost[index] = total;
+    pool->met[index] = 2;
+}
+
+static void check_entry_count(const Check *c, const FieldPath *path, PatternType type,
+                              uint32_t count) {
+    const FieldPath map = path_field(path, "map");
+    uint32_t least = least_entries(type);
+    if (count == 0)
+        refuse(c, &map, "it is empty");
+    if (count < least)
+        refuse(c, &map, "%u entries, but the pattern has %u values", count, least);
+}
+
+static bool only_bends(PatternType type) { return type == PATTERN_BUMPS || type == PATTERN_FACETS; }
+
+static void check_pigment(const Check *c, const FieldPath *path, uint32_t index, int depth) {
+    if (!enter_record(c, path, &c->pigments, index, depth))
+        return;
+    const Pigment *pigment = &c->scene->pigments[index];
+    const FieldPath type = path_field(path, "type"), map = path_field(path, "map");
+    PatternType kind = pigment->pattern.type;
+    Cost cost = {.all = kind == PATTERN_AVERAGE};
+    float weights = 0;
     check_pattern(c, path, &pigment->pattern);
     check_color(c, path, "color", pigment->color);
     check_color(c, path, "quick_color", pigment->quick_color);
-    bool plain = pigment->pattern.type == PATTERN_PLAIN;
-    if (plain != (pigment->entry_count == 0)) {
-        const FieldPath map = path_field(path, "map");
-        refuse(c, &map, plain ? "a plain pigment has none" : "it is empty");
-    }
+    if (only_bends(kind))
+        refuse(c, &type, "this pattern is for normals only");
+    if (kind == PATTERN_PLAIN && pigment->entry_count > 0)
+        refuse(c, &map, "a plain pigment has none");
     for (uint32_t i = 0; i < pigment->entry_count; i++) {
         const MapEntry *entry = &pigment->entries[i];
         const FieldPath item = path_item(path, "map", i);
         const FieldPath inner = path_field(&item, "pigment");
         check_float(c, &item, "value", entry->value);
         check_color(c, &item, "color", entry->color);
+        weights += entry->value;
         if (entry->pigment != NO_INDEX) {
-            check_index(c, &inner, entry->pigment, c->scene->pigment_count, "pigment");
             check_pigment(c, &inner, entry->pigment, depth + 1);
+            cost_add(&cost, c->pigments.cost[entry->pigment]);
         }
     }
-    if (pigment->pattern.type == PATTERN_AVERAGE)
-        check_weights(c, path, pigment);
-    uint32_t least = least_entries(pigment->pattern.type);
-    if (!plain && pigment->entry_count < least) {
-        const FieldPath map = path_field(path, "map");
-        refuse(c, &map, "%u entries, but the pattern has %u values", pigment->entry_count, least);
-    }
-    c->pigment_met[index] = 2;
+    if (kind == PATTERN_AVERAGE)
+        check_weights(c, path, weights);
+    if (kind != PATTERN_PLAIN)
+        check_entry_count(c, path, kind, pigment->entry_count);
+    leave_record(c, path, &c->pigments, index, &cost);
 }
+
+// ---- normals --------------------------------------------------------------------------------
+
+static void check_normal(const Check *c, const FieldPath *path, uint32_t index, int depth) {
+    if (!enter_record(c, path, &c->normals, index, depth))
+        return;
+    const Normal *normal = &c->scene->normals[index];
+    const FieldPath type = path_field(path, "type"), map = path_field(path, "slope_map");
+    PatternType kind = normal->pattern.type;
+    Cost cost = {.all = kind == PATTERN_AVERAGE};
+    float weights = 0;
+    check_pattern(c, path, &normal->pattern);
+    if (kind == PATTERN_PLAIN)
+        refuse(c, &type, "a normal needs a pattern");
+    check_float(c, path, "amount", normal->amount);
+    check_not_zero(c, path, "accuracy", normal->accuracy);
+    for (uint32_t i = 0; i < normal->slope_count; i++) {
+        const FieldPath item = path_item(path, "slope_map", i);
+        check_float(c, &item, "value", normal->slopes[i].value);
+        check_numbers(c, &item, "height", &normal->slopes[i].height, 1);
+        check_numbers(c, &item, "slope", &normal->slopes[i].slope, 1);
+    }
+    if (normal->slope_count > 0 && normal->entry_count > 0)
+        refuse(c, &map, "it does not go with 'map'");
+    for (uint32_t i = 0; i < normal->entry_count; i++) {
+        const FieldPath item = path_item(path, "map", i);
+        const FieldPath inner = path_field(&item, "normal");
+        check_float(c, &item, "value", normal->entries[i].value);
+        weights += normal->entries[i].value;
+        check_normal(c, &inner, normal->entries[i].index, depth + 1);
+        cost_add(&cost, c->normals.cost[normal->entries[i].index]);
+    }
+    if (kind == PATTERN_AVERAGE)
+        check_weights(c, path, weights);
+    if (kind == PATTERN_AVERAGE || normal->entry_count > 0)
+        check_entry_count(c, path, kind, normal->entry_count);
+    leave_record(c, path, &c->normals, index, &cost);
+}
+
+// ---- textures -------------------------------------------------------------------------------
 
 static void check_finish(const Check *c, const FieldPath *path, const Finish *f) {
     check_rgb(c, path, "ambient", f->ambient);
@@ -195,28 +284,67 @@ static void check_finish(const Check *c, const FieldPath *path, const Finish *f)
     check_float(c, path, "irid_turbulence", f->irid_turbulence);
 }
 
-static void check_texture(const Check *c, const FieldPath *path, const Texture *texture) {
-    if (texture->layer_count == 0)
-        refuse(c, path, "it has no layers");
+static void check_layers(const Check *c, const FieldPath *path, const Texture *texture) {
     for (uint32_t i = 0; i < texture->layer_count; i++) {
-        const FieldPath layer = path_item(path, "layers", i);
-        const FieldPath pigment = path_field(&layer, "pigment");
-        const FieldPath finish = path_field(&layer, "finish");
-        check_index(c, &pigment, texture->layers[i].pigment, c->scene->pigment_count, "pigment");
-        check_finish(c, &finish, &texture->layers[i].finish);
+        const Layer *layer = &texture->layers[i];
+        const FieldPath item = path_item(path, "layers", i);
+        const FieldPath pigment = path_field(&item, "pigment");
+        const FieldPath finish = path_field(&item, "finish");
+        const FieldPath normal = path_field(&item, "normal");
+        check_index(c, &pigment, layer->pigment, c->scene->pigment_count, "pigment");
+        if (layer->normal != NO_INDEX)
+            check_index(c, &normal, layer->normal, c->scene->normal_count, "normal");
+        check_finish(c, &finish, &layer->finish);
     }
 }
 
-void check_pigments(Check *c) {
-    for (uint32_t i = 0; i < c->scene->pigment_count; i++) {
-        const FieldPath path = path_item(NULL, "pigments", i);
-        check_pigment(c, &path, i, 0);
+static void check_texture(const Check *c, const FieldPath *path, uint32_t index, int depth) {
+    if (!enter_record(c, path, &c->textures, index, depth))
+        return;
+    const Texture *texture = &c->scene->textures[index];
+    const FieldPath type = path_field(path, "type"), map = path_field(path, "map");
+    PatternType kind = texture->pattern.type;
+    Cost cost = {.all = kind == PATTERN_AVERAGE};
+    float weights = 0;
+    check_pattern(c, path, &texture->pattern);
+    if (only_bends(kind))
+        refuse(c, &type, "this pattern is for normals only");
+    if (kind == PATTERN_PLAIN && texture->layer_count == 0 && texture->entry_count == 0)
+        refuse(c, path, "it has no layers");
+    if (texture->layer_count > 0 && (kind != PATTERN_PLAIN || texture->entry_count > 0))
+        refuse(c, path, "'layers' do not go with a pattern");
+    if (kind == PATTERN_PLAIN &&
+        (texture->entry_count > 1 || (texture->entry_count == 1 && !texture->uv_mapping)))
+        refuse(c, &map, "without a pattern there is one entry, and only with 'uv_mapping'");
+    check_layers(c, path, texture);
+    for (uint32_t i = 0; i < texture->entry_count; i++) {
+        const FieldPath item = path_item(path, "map", i);
+        const FieldPath inner = path_field(&item, "texture");
+        check_float(c, &item, "value", texture->entries[i].value);
+        weights += texture->entries[i].value;
+        check_texture(c, &inner, texture->entries[i].index, depth + 1);
+        cost_add(&cost, c->textures.cost[texture->entries[i].index]);
+    }
+    if (kind == PATTERN_AVERAGE)
+        check_weights(c, path, weights);
+    if (kind != PATTERN_PLAIN)
+        check_entry_count(c, path, kind, texture->entry_count);
+    cost_add(&cost, texture->layer_count);
+    leave_record(c, path, &c->textures, index, &cost);
+}
+
+typedef void CheckRecord(const Check *c, const FieldPath *path, uint32_t index, int depth);
+
+static void check_pool(const Check *c, const CheckPool *pool, const char *name,
+                       CheckRecord *check) {
+    for (uint32_t i = 0; i < pool->count; i++) {
+        const FieldPath path = path_item(NULL, name, i);
+        check(c, &path, i, 0);
     }
 }
 
-void check_textures(const Check *c) {
-    for (uint32_t i = 0; i < c->scene->texture_count; i++) {
-        const FieldPath path = path_item(NULL, "textures", i);
-        check_texture(c, &path, &c->scene->textures[i]);
-    }
+void check_texture_pools(const Check *c) {
+    check_pool(c, &c->pigments, "pigments", check_pigment);
+    check_pool(c, &c->normals, "normals", check_normal);
+    check_pool(c, &c->textures, "textures", check_texture);
 }

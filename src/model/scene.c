@@ -93,7 +93,12 @@ Pattern pattern_default(void) {
         .mortar = 0.5f,
         .quilted = {1.0f, 1.0f},
         .crackle = {.form = {-1, 1, 0}, .metric = 2},
+        .facets = {.size = 0.1, .metric = 2},
     };
+}
+
+Normal normal_default(void) {
+    return (Normal){.pattern = pattern_default(), .amount = 0.5f, .accuracy = 0.02f};
 }
 
 Warp warp_default(WarpType type) {
@@ -166,6 +171,7 @@ bool object_is_tree(const Object *object) {
     X(bozo)                                                                                        \
     X(brick)                                                                                       \
     X(brilliance)                                                                                  \
+    X(bumps)                                                                                       \
     X(caustics)                                                                                    \
     X(cells)                                                                                       \
     X(checker)                                                                                     \
@@ -183,6 +189,7 @@ bool object_is_tree(const Object *object) {
     X(diffuse_back)                                                                                \
     X(disc)                                                                                        \
     X(double_illuminate)                                                                           \
+    X(facets)                                                                                      \
     X(fisheye)                                                                                     \
     X(focal_blur)                                                                                  \
     X(fog)                                                                                         \
@@ -204,6 +211,8 @@ bool object_is_tree(const Object *object) {
     X(no_image)                                                                                    \
     X(no_reflection)                                                                               \
     X(no_shadow)                                                                                   \
+    X(normal)                                                                                      \
+    X(normal_map)                                                                                  \
     X(omnimax)                                                                                     \
     X(onion)                                                                                       \
     X(orthographic)                                                                                \
@@ -226,6 +235,7 @@ bool object_is_tree(const Object *object) {
     X(ripples)                                                                                     \
     X(shadowless_light)                                                                            \
     X(sky_sphere)                                                                                  \
+    X(slope_map)                                                                                   \
     X(specular)                                                                                    \
     X(sphere)                                                                                      \
     X(spherical)                                                                                   \
@@ -234,6 +244,7 @@ bool object_is_tree(const Object *object) {
     X(spiral2)                                                                                     \
     X(spotlight)                                                                                   \
     X(square)                                                                                      \
+    X(texture_map)                                                                                 \
     X(torus)                                                                                       \
     X(transparency)                                                                                \
     X(triangle)                                                                                    \
@@ -274,13 +285,17 @@ typedef struct {
 static void need(FeatureSet *set, Feature feature, bool needed) { set->has[feature] |= needed; }
 
 // ORDER pattern_type; a plain colour needs nothing.
-static const Feature PATTERN_FEATURES[PATTERN_MODELLED] = {
+static const Feature PATTERN_FEATURES[] = {
     FEATURE_COUNT,       FEATURE_checker,   FEATURE_gradient, FEATURE_agate,    FEATURE_boxed,
     FEATURE_bozo,        FEATURE_brick,     FEATURE_cells,    FEATURE_crackle,  FEATURE_cubic,
     FEATURE_cylindrical, FEATURE_dents,     FEATURE_granite,  FEATURE_hexagon,  FEATURE_leopard,
     FEATURE_marble,      FEATURE_onion,     FEATURE_planar,   FEATURE_quilted,  FEATURE_radial,
     FEATURE_ripples,     FEATURE_spherical, FEATURE_spiral1,  FEATURE_spiral2,  FEATURE_square,
-    FEATURE_triangular,  FEATURE_waves,     FEATURE_wood,     FEATURE_wrinkles, FEATURE_average};
+    FEATURE_triangular,  FEATURE_waves,     FEATURE_wood,     FEATURE_wrinkles, FEATURE_average,
+    FEATURE_bumps,       FEATURE_facets,
+};
+_Static_assert(sizeof PATTERN_FEATURES / sizeof *PATTERN_FEATURES == PATTERN_MODELLED,
+               "a feature for each pattern");
 
 // ORDER warp_type; transforms count as pattern_warp only.
 static const Feature WARP_FEATURES[] = {
@@ -311,24 +326,40 @@ static void collect_lights(const Scene *scene, FeatureSet *set) {
     }
 }
 
+static void collect_pattern(const Pattern *pattern, FeatureSet *set) {
+    bool plain = pattern->type == PATTERN_PLAIN;
+    if (!plain)
+        need(set, PATTERN_FEATURES[pattern->type], true);
+    need(set, FEATURE_pattern_wave, !plain && pattern->wave != WAVE_RAMP);
+    need(set, FEATURE_pattern_warp, pattern->warp_count > 0);
+    for (uint32_t j = 0; j < pattern->warp_count; j++)
+        need(set, WARP_FEATURES[pattern->warps[j].type], true);
+    need(set, FEATURE_turbulence, pattern->has_turbulence);
+}
+
 static void collect_pigments(const Scene *scene, FeatureSet *set) {
     for (uint32_t i = 0; i < scene->pigment_count; i++) {
         const Pigment *pigment = &scene->pigments[i];
-        bool plain = pigment->pattern.type == PATTERN_PLAIN;
-        if (!plain)
-            need(set, PATTERN_FEATURES[pigment->pattern.type], true);
-        need(set, FEATURE_pattern_wave, !plain && pigment->pattern.wave != WAVE_RAMP);
-        need(set, FEATURE_pattern_warp, pigment->pattern.warp_count > 0);
-        for (uint32_t j = 0; j < pigment->pattern.warp_count; j++)
-            need(set, WARP_FEATURES[pigment->pattern.warps[j].type], true);
-        need(set, FEATURE_turbulence, pigment->pattern.has_turbulence);
+        collect_pattern(&pigment->pattern, set);
         need(set, FEATURE_uv_mapping, pigment->uv_mapping);
-        need(set, FEATURE_transparency, plain && is_clear(pigment->color));
+        need(set, FEATURE_transparency,
+             pigment->pattern.type == PATTERN_PLAIN && is_clear(pigment->color));
         for (uint32_t j = 0; j < pigment->entry_count; j++) {
             bool map = pigment->entries[j].pigment != NO_INDEX;
             need(set, FEATURE_pigment_map, map);
             need(set, FEATURE_transparency, !map && is_clear(pigment->entries[j].color));
         }
+    }
+}
+
+static void collect_normals(const Scene *scene, FeatureSet *set) {
+    for (uint32_t i = 0; i < scene->normal_count; i++) {
+        const Normal *normal = &scene->normals[i];
+        need(set, FEATURE_normal, true);
+        collect_pattern(&normal->pattern, set);
+        need(set, FEATURE_uv_mapping, normal->uv_mapping);
+        need(set, FEATURE_normal_map, normal->entry_count > 0);
+        need(set, FEATURE_slope_map, normal->slope_count > 0);
     }
 }
 
@@ -350,6 +381,8 @@ static void collect_textures(const Scene *scene, FeatureSet *set) {
     for (uint32_t i = 0; i < scene->texture_count; i++) {
         const Texture *texture = &scene->textures[i];
         need(set, FEATURE_layered_texture, texture->layer_count > 1);
+        need(set, FEATURE_texture_map, texture->entry_count > 0);
+        collect_pattern(&texture->pattern, set);
         need(set, FEATURE_uv_mapping, texture->uv_mapping);
         for (uint32_t j = 0; j < texture->layer_count; j++)
             collect_finish(&texture->layers[j].finish, set);
@@ -420,6 +453,7 @@ void scene_collect_requires(Scene *scene, Arena *arena) {
     need(&set, FEATURE_rainbow, scene->rainbow_count > 0);
     collect_lights(scene, &set);
     collect_pigments(scene, &set);
+    collect_normals(scene, &set);
     collect_textures(scene, &set);
     collect_objects(scene, &set);
 

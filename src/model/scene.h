@@ -146,6 +146,8 @@ typedef enum {
     PATTERN_WOOD,
     PATTERN_WRINKLES,
     PATTERN_AVERAGE,  // no value: the mean of the entries, weighted by theirs
+    PATTERN_BUMPS,    // of normals only, this and the next; the pigment is PATTERN_BOZO
+    PATTERN_FACETS,   // facets
     PATTERN_MODELLED, // patterns from here on are not in a Scene
 } PatternType;
 
@@ -218,6 +220,10 @@ typedef struct {
     bool solid;
 } CrackleShape;
 
+typedef struct {
+    double size, coords, metric; // coords 0: cells of the normal itself, else of the point
+} FacetsShape;
+
 // How a point becomes a number. warps are stored in the order in which they are applied to the
 // point (last written first); consecutive transforms are one (facts: textures 1.6).
 typedef struct {
@@ -236,6 +242,7 @@ typedef struct {
     float mortar;          // as written; default 0.5
     float quilted[2];      // control0, control1; default 1, 1
     CrackleShape crackle;  // default form <-1, 1, 0>, metric 2
+    FacetsShape facets;    // default size 0.1, coords 0, metric 2
 } Pattern;
 
 // One entry of a map: `value` is the position; the colour, or a pigment when pigment != NO_INDEX.
@@ -255,6 +262,31 @@ typedef struct {
     Color quick_color;
 } Pigment;
 
+// One step of a slope_map: the height there and the slope of the curve.
+typedef struct {
+    float value;
+    double height, slope;
+} SlopeEntry;
+
+// One entry of a map of other records: its position, or weight, and an index into their pool.
+typedef struct {
+    float value;
+    uint32_t index;
+} IndexEntry;
+
+// How a layer bends the surface's normal: as if its pattern were the height of the surface.
+typedef struct {
+    Pattern pattern;    // never PATTERN_PLAIN
+    float amount;       // the depth, also called bump_size; default 0.5
+    float accuracy;     // how far around the point the pattern is looked at; default 0.02
+    SlopeEntry *slopes; // the pattern's value becomes a height; none: it is the height
+    uint32_t slope_count;
+    IndexEntry *entries; // normals; none: the pattern itself bends
+    uint32_t entry_count;
+    bool uv_mapping;    // evaluate at (u, v, 0) of the hit
+    bool no_bump_scale; // transforms of the pattern change the depth
+} Normal;
+
 // Facts: rendering 4.4, 4.5. reflection: `max` is the value at grazing angles, `min` head-on.
 typedef struct {
     Rgb ambient, emission;
@@ -272,13 +304,19 @@ typedef struct {
 typedef struct {
     uint32_t pigment;
     Finish finish;
+    uint32_t normal; // NO_INDEX: the surface's own
 } Layer;
 
-// layers[0] is the top one (the last written).
+// Either layers, the top one (the last written) first; or, if there are none, textures chosen and
+// mixed by a pattern. With uv_mapping and PATTERN_PLAIN there may be one entry instead of layers.
 typedef struct {
     Layer *layers;
     uint32_t layer_count;
-    bool uv_mapping; // the whole stack at (u, v, 0)
+    bool uv_mapping;     // evaluate all of it at (u, v, 0); the pattern's warps turn only normals
+    bool no_bump_scale;  // of the warps, for the normals inside
+    Pattern pattern;     // PATTERN_PLAIN with layers
+    IndexEntry *entries; // textures
+    uint32_t entry_count;
 } Texture;
 
 typedef struct {
@@ -433,6 +471,8 @@ typedef struct {
     uint32_t light_count;
     Pigment *pigments;
     uint32_t pigment_count;
+    Normal *normals;
+    uint32_t normal_count;
     Texture *textures;
     uint32_t texture_count;
     Interior *interiors;
@@ -455,12 +495,15 @@ AreaLight area_light_default(void);
 // Are both the same, member by member and bit by bit? They may be of different scenes with the same
 // pools: pigments in maps are compared by index.
 bool pigment_equal(const Pigment *a, const Pigment *b);
+bool normal_equal(const Normal *a, const Normal *b);
+bool texture_equal(const Texture *a, const Texture *b);
 
 Fog fog_default(void);         // without a distance
 Rainbow rainbow_default(void); // without a pigment and a direction
 
 Turbulence turbulence_default(void); // without an amount
 Pattern pattern_default(void);
+Normal normal_default(void); // without a pattern
 Warp warp_default(WarpType type);
 Object object_default(ObjectType type);
 // Has it children?

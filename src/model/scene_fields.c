@@ -323,6 +323,7 @@ static const Field SCENE_FIELDS[] = {
     RECORDS(Scene, rainbows, rainbow_count, "rainbows", &RAINBOW),
     RECORDS(Scene, lights, light_count, "lights", &LIGHT),
     RECORDS(Scene, pigments, pigment_count, "pigments", &PIGMENT_RECORD),
+    RECORDS(Scene, normals, normal_count, "normals", &NORMAL_RECORD),
     RECORDS(Scene, textures, texture_count, "textures", &TEXTURE_RECORD),
     RECORDS(Scene, interiors, interior_count, "interiors", &INTERIOR),
     END,
@@ -377,6 +378,12 @@ static bool record_equal(const Record *record, const void *a, const void *b) {
 
 bool pigment_equal(const Pigment *a, const Pigment *b) {
     return record_equal(&PIGMENT_RECORD, a, b);
+}
+
+bool normal_equal(const Normal *a, const Normal *b) { return record_equal(&NORMAL_RECORD, a, b); }
+
+bool texture_equal(const Texture *a, const Texture *b) {
+    return record_equal(&TEXTURE_RECORD, a, b);
 }
 
 bool field_belongs(const Record *table, const Field *field, const void *record) {

@@ -305,8 +305,7 @@ static void check_scene(void *context) {
         const FieldPath path = path_item(NULL, "lights", i);
         check_light(c, &path, &scene->lights[i]);
     }
-    check_pigments(c);
-    check_textures(c);
+    check_texture_pools(c);
     for (uint32_t i = 0; i < scene->interior_count; i++) {
         const FieldPath path = path_item(NULL, "interiors", i);
         check_interior(c, &path, &scene->interiors[i]);
@@ -314,11 +313,18 @@ static void check_scene(void *context) {
     check_objects(c);
 }
 
+static CheckPool make_pool(Arena *scratch, const char *name, uint32_t count) {
+    return (CheckPool){name, count, ARENA_ARRAY(scratch, uint8_t, count),
+                       ARENA_ARRAY(scratch, double, count)};
+}
+
 void scene_validate_at(const Scene *scene, const char *file, const uint32_t *positions) {
     Arena *scratch = arena_create();
     Check c = {.scene = scene, .file = file, .positions = positions};
     c.met = ARENA_ARRAY(scratch, bool, scene->object_count);
-    c.pigment_met = ARENA_ARRAY(scratch, uint8_t, scene->pigment_count);
+    c.pigments = make_pool(scratch, "pigment", scene->pigment_count);
+    c.normals = make_pool(scratch, "normal", scene->normal_count);
+    c.textures = make_pool(scratch, "texture", scene->texture_count);
     char *message = NULL;
     bool good = diag_catch(check_scene, &c, &message);
     arena_destroy(scratch);

@@ -115,6 +115,10 @@ static void write_record(Writer *w, const Record *record, const void *at) {
     union {
         Finish finish;
         Pigment pigment;
+        Normal normal;
+        SlopeEntry slope;
+        IndexEntry index;
+        FacetsShape facets;
         Turbulence turbulence;
         CrackleShape crackle;
         Settings settings;

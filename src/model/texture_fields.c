@@ -8,10 +8,11 @@
 
 // ORDER pattern_type
 static const char *const PATTERN_TYPE_NAMES[] = {
-    "plain",   "checker",    "gradient",    "agate",  "boxed",    "bozo",      "brick",   "cells",
-    "crackle", "cubic",      "cylindrical", "dents",  "granite",  "hexagon",   "leopard", "marble",
-    "onion",   "planar",     "quilted",     "radial", "ripples",  "spherical", "spiral1", "spiral2",
-    "square",  "triangular", "waves",       "wood",   "wrinkles", "average",   NULL,
+    "plain",     "checker", "gradient", "agate",       "boxed",      "bozo",    "brick",
+    "cells",     "crackle", "cubic",    "cylindrical", "dents",      "granite", "hexagon",
+    "leopard",   "marble",  "onion",    "planar",      "quilted",    "radial",  "ripples",
+    "spherical", "spiral1", "spiral2",  "square",      "triangular", "waves",   "wood",
+    "wrinkles",  "average", "bumps",    "facets",      NULL,
 };
 _Static_assert(sizeof PATTERN_TYPE_NAMES / sizeof *PATTERN_TYPE_NAMES == PATTERN_MODELLED + 1,
                "a name for each pattern");
@@ -123,33 +124,48 @@ static const Field MAP_ENTRY_FIELDS[] = {
 static void default_map_entry(void *out) { *(MapEntry *)out = (MapEntry){.pigment = NO_INDEX}; }
 static const Record MAP_ENTRY = {NULL, MAP_ENTRY_FIELDS, sizeof(MapEntry), default_map_entry, NULL};
 
+static const Field FACETS_FIELDS[] = {
+    DOUBLE(FacetsShape, size, "size"),
+    DOUBLE(FacetsShape, coords, "coords"),
+    DOUBLE(FacetsShape, metric, "metric"),
+    END,
+};
+static void default_facets(void *out) { *(FacetsShape *)out = pattern_default().facets; }
+static const Record FACETS = {NULL, FACETS_FIELDS, sizeof(FacetsShape), default_facets, NULL};
+
+// The pattern inside a pigment, a normal or a texture, in two parts: its kind and shape, and what
+// moves the point.
+#define PATTERN_SHAPE(Struct, kept)                                                                \
+    {.name = "type",                                                                               \
+     .type = FIELD_ENUM,                                                                           \
+     .presence = kept,                                                                             \
+     AT(Struct, pattern.type),                                                                     \
+     .names = PATTERN_TYPE_NAMES},                                                                 \
+        VEC3(Struct, pattern.gradient, "gradient"),                                                \
+        FLOAT(Struct, pattern.agate_turb, "agate_turb"),                                           \
+        VEC3(Struct, pattern.brick_size, "brick_size"), FLOAT(Struct, pattern.mortar, "mortar"),   \
+        {.name = "crackle",                                                                        \
+         .type = FIELD_RECORD,                                                                     \
+         AT(Struct, pattern.crackle),                                                              \
+         .record = &CRACKLE},                                                                      \
+        {.name = "facets", .type = FIELD_RECORD, AT(Struct, pattern.facets), .record = &FACETS},   \
+        {.name = "quilted", .type = FIELD_FLOATS, AT(Struct, pattern.quilted), .columns = 2},      \
+        INT(Struct, pattern.arms, "arms"), ENUM(Struct, pattern.wave, "wave", WAVE_TYPE_NAMES),    \
+        FLOAT(Struct, pattern.frequency, "frequency"), FLOAT(Struct, pattern.phase, "phase"),      \
+        FLOAT(Struct, pattern.exponent, "exponent"),                                               \
+        INT(Struct, pattern.noise_generator, "noise_generator")
+#define PATTERN_WARPS(Struct)                                                                      \
+    RECORDS(Struct, pattern.warps, pattern.warp_count, "warps", &WARP), {                          \
+        .name = "turbulence", .type = FIELD_RECORD, .presence = FIELD_FLAGGED,                     \
+        AT(Struct, pattern.turbulence), .link = offsetof(Struct, pattern.has_turbulence),          \
+        .record = &TURBULENCE_RECORD                                                               \
+    }
+
 static const Field PIGMENT_FIELDS[] = {
-    {.name = "type",
-     .type = FIELD_ENUM,
-     .presence = FIELD_ALWAYS,
-     AT(Pigment, pattern.type),
-     .names = PATTERN_TYPE_NAMES},
-    VEC3(Pigment, pattern.gradient, "gradient"),
-    FLOAT(Pigment, pattern.agate_turb, "agate_turb"),
-    VEC3(Pigment, pattern.brick_size, "brick_size"),
-    FLOAT(Pigment, pattern.mortar, "mortar"),
-    {.name = "crackle", .type = FIELD_RECORD, AT(Pigment, pattern.crackle), .record = &CRACKLE},
-    {.name = "quilted", .type = FIELD_FLOATS, AT(Pigment, pattern.quilted), .columns = 2},
-    INT(Pigment, pattern.arms, "arms"),
-    ENUM(Pigment, pattern.wave, "wave", WAVE_TYPE_NAMES),
-    FLOAT(Pigment, pattern.frequency, "frequency"),
-    FLOAT(Pigment, pattern.phase, "phase"),
-    FLOAT(Pigment, pattern.exponent, "exponent"),
-    INT(Pigment, pattern.noise_generator, "noise_generator"),
+    PATTERN_SHAPE(Pigment, FIELD_ALWAYS),
     COLOR(Pigment, color, "color"),
     RECORDS(Pigment, entries, entry_count, "map", &MAP_ENTRY),
-    RECORDS(Pigment, pattern.warps, pattern.warp_count, "warps", &WARP),
-    {.name = "turbulence",
-     .type = FIELD_RECORD,
-     .presence = FIELD_FLAGGED,
-     AT(Pigment, pattern.turbulence),
-     .link = offsetof(Pigment, pattern.has_turbulence),
-     .record = &TURBULENCE_RECORD},
+    PATTERN_WARPS(Pigment),
     BOOL(Pigment, uv_mapping, "uv_mapping"),
     {.name = "quick_color",
      .type = FIELD_COLOR,
@@ -162,6 +178,43 @@ static void default_pigment(void *out) {
     *(Pigment *)out = (Pigment){.pattern = pattern_default()};
 }
 const Record PIGMENT_RECORD = {NULL, PIGMENT_FIELDS, sizeof(Pigment), default_pigment, NULL};
+
+// ---- normals --------------------------------------------------------------------------------
+
+static const Field SLOPE_ENTRY_FIELDS[] = {
+    {.name = "value", .type = FIELD_FLOAT, .presence = FIELD_REQUIRED, AT(SlopeEntry, value)},
+    DOUBLE_AS(FIELD_ALWAYS, SlopeEntry, height, "height"),
+    DOUBLE(SlopeEntry, slope, "slope"),
+    END,
+};
+static void default_slope_entry(void *out) { memset(out, 0, sizeof(SlopeEntry)); }
+static const Record SLOPE_ENTRY = {NULL, SLOPE_ENTRY_FIELDS, sizeof(SlopeEntry),
+                                   default_slope_entry, NULL};
+
+static const Field NORMAL_ENTRY_FIELDS[] = {
+    {.name = "value", .type = FIELD_FLOAT, .presence = FIELD_REQUIRED, AT(IndexEntry, value)},
+    {.name = "normal", .type = FIELD_INDEX, .presence = FIELD_REQUIRED, AT(IndexEntry, index)},
+    END,
+};
+static void default_index_entry(void *out) { *(IndexEntry *)out = (IndexEntry){0, NO_INDEX}; }
+static const Record NORMAL_ENTRY = {NULL, NORMAL_ENTRY_FIELDS, sizeof(IndexEntry),
+                                    default_index_entry, NULL};
+
+static const Field NORMAL_FIELDS[] = {
+    PATTERN_SHAPE(Normal, FIELD_ALWAYS),
+    FLOAT(Normal, amount, "amount"),
+    FLOAT(Normal, accuracy, "accuracy"),
+    RECORDS(Normal, slopes, slope_count, "slope_map", &SLOPE_ENTRY),
+    RECORDS(Normal, entries, entry_count, "map", &NORMAL_ENTRY),
+    PATTERN_WARPS(Normal),
+    BOOL(Normal, uv_mapping, "uv_mapping"),
+    BOOL(Normal, no_bump_scale, "no_bump_scale"),
+    END,
+};
+static void default_normal(void *out) { *(Normal *)out = normal_default(); }
+const Record NORMAL_RECORD = {NULL, NORMAL_FIELDS, sizeof(Normal), default_normal, NULL};
+
+// ---- textures -------------------------------------------------------------------------------
 
 static const Field FINISH_FIELDS[] = {
     RGB(Finish, ambient, "ambient"),
@@ -192,18 +245,33 @@ static const Record FINISH = {NULL, FINISH_FIELDS, sizeof(Finish), default_finis
 
 static const Field LAYER_FIELDS[] = {
     {.name = "pigment", .type = FIELD_INDEX, .presence = FIELD_REQUIRED, AT(Layer, pigment)},
+    INDEX(Layer, normal, "normal"),
     {.name = "finish", .type = FIELD_RECORD, AT(Layer, finish), .record = &FINISH},
     END,
 };
 static void default_layer(void *out) {
-    *(Layer *)out = (Layer){.pigment = NO_INDEX, .finish = finish_default()};
+    *(Layer *)out = (Layer){.pigment = NO_INDEX, .finish = finish_default(), .normal = NO_INDEX};
 }
 static const Record LAYER = {NULL, LAYER_FIELDS, sizeof(Layer), default_layer, NULL};
 
-static const Field TEXTURE_FIELDS[] = {
-    RECORDS(Texture, layers, layer_count, "layers", &LAYER),
-    BOOL(Texture, uv_mapping, "uv_mapping"),
+static const Field TEXTURE_ENTRY_FIELDS[] = {
+    {.name = "value", .type = FIELD_FLOAT, .presence = FIELD_REQUIRED, AT(IndexEntry, value)},
+    {.name = "texture", .type = FIELD_INDEX, .presence = FIELD_REQUIRED, AT(IndexEntry, index)},
     END,
 };
-static void default_texture(void *out) { memset(out, 0, sizeof(Texture)); }
+static const Record TEXTURE_ENTRY = {NULL, TEXTURE_ENTRY_FIELDS, sizeof(IndexEntry),
+                                     default_index_entry, NULL};
+
+static const Field TEXTURE_FIELDS[] = {
+    PATTERN_SHAPE(Texture, FIELD_PLAIN),
+    RECORDS(Texture, layers, layer_count, "layers", &LAYER),
+    RECORDS(Texture, entries, entry_count, "map", &TEXTURE_ENTRY),
+    PATTERN_WARPS(Texture),
+    BOOL(Texture, uv_mapping, "uv_mapping"),
+    BOOL(Texture, no_bump_scale, "no_bump_scale"),
+    END,
+};
+static void default_texture(void *out) {
+    *(Texture *)out = (Texture){.pattern = pattern_default()};
+}
 const Record TEXTURE_RECORD = {NULL, TEXTURE_FIELDS, sizeof(Texture), default_texture, NULL};

@@ -5,6 +5,6 @@
 
 #include "model/scene_fields.h"
 
-extern const Record PIGMENT_RECORD, TEXTURE_RECORD, TURBULENCE_RECORD;
+extern const Record PIGMENT_RECORD, NORMAL_RECORD, TEXTURE_RECORD, TURBULENCE_RECORD;
 
 #endif

@@ -3,14 +3,16 @@
 // top, then the background. Scenes older than 3.7 mix them in another way.
 #include "render/shading.h"
 
+#include "texture/pigment.h"
+
 #include <math.h>
 
 static Color sky_pigment(const Shading *shading, uint32_t i, Vec3 dir) {
     const SkySphere *sky = &shading->scene->sky_sphere;
-    TexturePoint at = {.p = transform_inv_point(&sky->transform, dir),
-                       .quick = shading->quality.quick_color};
+    TextureHit at = texture_no_hit(shading->quality.quick_color);
     Color c = {0};
-    pigment_color(shading->scene, sky->pigments[i], &at, &c);
+    pigment_color(&shading->textures, sky->pigments[i], &at,
+                  transform_inv_point(&sky->transform, dir), &c);
     return c;
 }
 

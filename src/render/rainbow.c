@@ -41,8 +41,8 @@ static bool bow_color(Tracer *tracer, const Rainbow *bow, const BowAngles *angle
         index += (2.0 * tracer_random(&tracer->bow_jitter) - 1.0) * bow->jitter;
     if (!(index >= 0.0 && index <= 1.0 - SHADE_EPS))
         return false;
-    const TexturePoint at = {.p = vec3(index, 0, 0)};
-    pigment_color(tracer->shading->scene, bow->pigment, &at, color);
+    const TextureHit nowhere = texture_no_hit(false);
+    pigment_color(&tracer->shading->textures, bow->pigment, &nowhere, vec3(index, 0, 0), color);
     return true;
 }
 

@@ -5,6 +5,8 @@
 #include "render/shading.h"
 #include "render/story.h"
 
+#include "texture/pigment.h"
+
 #include <math.h>
 
 uint32_t surface_texture(const Object *object, double normal_dot_dir) {
@@ -18,6 +20,8 @@ typedef struct {
     Rgb through; // the product of what they let through
     double translucency;
     bool found;          // some layer had a colour here
+    uint32_t count;      // done so far
+    Vec3 normal;         // of the top one
     uint32_t first, end; // their reflections on the tracer's stack
 } Layers;
 
@@ -47,19 +51,23 @@ static Rgb conserve_energy(Rgb through, Rgb reflectivity) {
                                 (float)(b < 1.0 ? b : 1.0)));
 }
 
-static void shade_layer(Tracer *tracer, const Surface *surface, const TexturePoint *at,
-                        uint32_t index, Layers *layers) {
+static void shade_layer(Tracer *tracer, const Surface *surface, const Layer *layer, Vec3 p,
+                        Layers *layers) {
     const Shading *shading = tracer->shading;
-    const Layer *layer = &surface->texture->layers[index];
+    Vec3 normal = surface->normal;
+    if (shading->quality.normals)
+        normal = texture_normal(&shading->textures, layer, surface->spaces, surface->at, p, normal);
+    uint32_t index = layers->count++;
+    if (index == 0)
+        layers->normal = normal;
     Color c = {0};
-    bool found = pigment_color(shading->scene, layer->pigment, at, &c);
+    bool found = pigment_color(&shading->textures, layer->pigment, surface->at, p, &c);
     layers->found |= found;
     Rgb reflectivity = {0};
     if (shading->quality.ambient_only) {
         layers->color = color_rgb(c);
     } else {
-        LitLayer lit = {surface, &layer->finish, surface->normal, color_rgb(c),
-                        opacity(shading, c)};
+        LitLayer lit = {surface, &layer->finish, normal, color_rgb(c), opacity(shading, c)};
         LayerReflection reflection = {.weight = surface->path->weight * layers->translucency};
         reflect_layer(shading, surface, lit.finish, lit.normal, lit.color, &reflection);
         reflectivity = reflection.reflectivity;
@@ -79,26 +87,29 @@ static void shade_layer(Tracer *tracer, const Surface *surface, const TexturePoi
     layers->translucency = grey < 1.0 ? grey : 1.0;
 }
 
-static Layers shade_layers(Tracer *tracer, const Surface *surface, const TexturePoint *at) {
+static Layers shade_layers(Tracer *tracer, const Surface *surface, const Texture *texture, Vec3 p) {
     double bailout = tracer->shading->scene->settings.adc_bailout;
     Layers layers = {.through = {1.0f, 1.0f, 1.0f}, .translucency = 1.0};
     layers.first = layers.end = tracer->reflection_top;
-    lights_reset(tracer);
-    for (uint32_t i = 0; i < surface->texture->layer_count && layers.translucency > bailout; i++)
-        shade_layer(tracer, surface, at, i, &layers);
+    // Rays that a texture before in the same map has sent on had hits of their own to light.
+    if (tracer->lights_hit != surface->number)
+        lights_reset(tracer);
+    tracer->lights_hit = surface->number;
+    for (uint32_t i = 0; i < texture->layer_count && layers.translucency > bailout; i++)
+        shade_layer(tracer, surface, &texture->layers[i], p, &layers);
     return layers;
 }
 
-// Adds what is seen through the surface; returns whether it was totally reflected instead.
-static bool add_transmitted(Tracer *tracer, const Surface *surface, const Layers *layers,
-                            Color *color) {
+// Adds what is seen through the surface, with the top layer's finish; returns whether it was
+// totally reflected instead.
+static bool add_transmitted(Tracer *tracer, const Surface *surface, const Finish *finish,
+                            const Layers *layers, Color *color) {
     const Path *path = surface->path;
     Rgb through = layers->through;
     double high = fmax(fabs(through.r), fmax(fabs(through.g), fabs(through.b)));
     Color seen;
-    // Every layer has the surface's normal: nothing in a Scene perturbs it.
-    bool total = refract_trace(tracer, surface, &surface->texture->layers[0].finish,
-                               surface->normal, (float)(path->weight * high), &seen);
+    bool total =
+        refract_trace(tracer, surface, finish, layers->normal, (float)(path->weight * high), &seen);
     Rgb fade = rgb(1.0f, 1.0f, 1.0f);
     const Interior *interior = body_interior(tracer->shading->scene, surface->body);
     if (interior != NULL && interior_inside(path->inside, surface->body))
@@ -119,7 +130,7 @@ static void add_reflected(Tracer *tracer, const Surface *surface, const Layers *
                           Color *color) {
     for (uint32_t i = layers->first; i < layers->end; i++) {
         const LayerReflection *reflection = &tracer->reflections[i];
-        Vec3 d = vec_sub(surface->normal, reflection->normal);
+        Vec3 d = vec_sub(layers->normal, reflection->normal);
         if (total && fabs(d.x) <= SHADE_EPS && fabs(d.y) <= SHADE_EPS && fabs(d.z) <= SHADE_EPS)
             continue; // the total reflection has already shown it
         Rgb seen = reflect_trace(tracer, surface, reflection);
@@ -132,6 +143,40 @@ static void add_reflected(Tracer *tracer, const Surface *surface, const Layers *
     }
 }
 
+static Color shade_plain(Tracer *tracer, const Surface *surface, const Texture *texture, Vec3 p) {
+    const Shading *shading = tracer->shading;
+    Layers layers = shade_layers(tracer, surface, texture, p);
+    tracer->reflection_top = layers.end;
+    Color color = {layers.color.r, layers.color.g, layers.color.b, 0.0f, 0.0f};
+    bool total = false;
+    if (layers.translucency > shading->scene->settings.adc_bailout && shading->quality.refraction)
+        total = add_transmitted(tracer, surface, &texture->layers[0].finish, &layers, &color);
+    if (shading->quality.reflection)
+        add_reflected(tracer, surface, &layers, total, &color);
+    tracer->reflection_top = layers.first;
+    return color;
+}
+
+// Textures in a map are shaded to the end, reflections and all, and the colours are mixed.
+static Color shade_texture(Tracer *tracer, const Surface *surface, uint32_t index, Vec3 p) {
+    TextureChoice choice =
+        texture_choose(&tracer->shading->textures, index, surface->spaces, surface->at, p);
+    if (choice.layers != NULL)
+        return shade_plain(tracer, surface, choice.layers, choice.p);
+    if (choice.average) {
+        TextureMean mean = {0};
+        for (uint32_t i = choice.first; i < choice.second; i++)
+            mean = texture_mean(mean, choice.entries[i].value,
+                                shade_texture(tracer, surface, choice.entries[i].index, choice.p));
+        return texture_mean_color(mean);
+    }
+    Color first = shade_texture(tracer, surface, choice.entries[choice.first].index, choice.p);
+    if (choice.first == choice.second)
+        return first;
+    Color second = shade_texture(tracer, surface, choice.entries[choice.second].index, choice.p);
+    return texture_mix(choice.share, first, second);
+}
+
 Color shade_hit(Tracer *tracer, const Path *path, const WorldHit *hit) {
     const Shading *shading = tracer->shading;
     const Object *object = &shading->scene->objects[hit->object];
@@ -139,24 +184,20 @@ Color shade_hit(Tracer *tracer, const Path *path, const WorldHit *hit) {
     uint32_t texture = surface_texture(object, cosine);
     if (texture == NO_INDEX)
         return (Color){0}; // the built-in texture is black and opaque under any light
+    Vec3 normal = cosine > 0.0 ? vec_neg(hit->normal) : hit->normal;
+    TextureHit at = {hit->p, path->ray.dir, hit->u, hit->v, normal, shading->quality.quick_color};
+    TextureSpaces spaces;
+    spaces.count = 0;
     Surface surface = {
         .path = path,
         .hit = hit,
-        .normal = cosine > 0.0 ? vec_neg(hit->normal) : hit->normal,
+        .normal = normal,
         .body = shading->objects[hit->object].body,
-        .texture = &shading->scene->textures[texture],
         .double_illuminate = object->double_illuminate,
+        .number = ++tracer->hits,
+        .at = &at,
+        .spaces = &spaces,
     };
-    TexturePoint at = texture_point(surface.texture, object->uv_mapping, hit->p, hit->u, hit->v,
-                                    shading->quality.quick_color);
-    Layers layers = shade_layers(tracer, &surface, &at);
-    tracer->reflection_top = layers.end;
-    Color color = {layers.color.r, layers.color.g, layers.color.b, 0.0f, 0.0f};
-    bool total = false;
-    if (layers.translucency > shading->scene->settings.adc_bailout && shading->quality.refraction)
-        total = add_transmitted(tracer, &surface, &layers, &color);
-    if (shading->quality.reflection)
-        add_reflected(tracer, &surface, &layers, total, &color);
-    tracer->reflection_top = layers.first;
-    return color;
+    return shade_texture(tracer, &surface, texture,
+                         object->uv_mapping ? vec3(hit->u, hit->v, 0.0) : hit->p);
 }

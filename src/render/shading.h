@@ -26,7 +26,7 @@
 
 // +Q: what is left out below 9.
 typedef struct {
-    bool ambient_only, quick_color, shadows, area_lights, refraction, reflection, air;
+    bool ambient_only, quick_color, shadows, area_lights, refraction, reflection, air, normals;
 } Quality;
 
 typedef struct {
@@ -49,6 +49,7 @@ typedef struct {
 struct Shading {
     const Scene *scene;
     const World *world;
+    Textures textures;
     TraceOptions options;
     Quality quality;
     bool legacy;          // effective version < 3.7: other formulas for opacity and sky
@@ -99,6 +100,7 @@ struct Tracer {
     uint32_t area_jitter;         // the same for points of area lights
     uint32_t bow_jitter;          // and of rainbows
     LightSample *lights;          // one per light, for the hit being shaded
+    uint64_t hits, lights_hit;    // shaded so far; the number of the one that lights is for
     Rgb *grid;                    // light_area.c: what is known of the area light at hand
     LayerReflection *reflections; // a stack; each hit under way holds a piece of it
     uint32_t reflection_top;      // pieces in use
@@ -116,8 +118,10 @@ typedef struct {
     const WorldHit *hit;
     Vec3 normal; // of unit length, turned against the ray
     uint32_t body;
-    const Texture *texture;
     bool double_illuminate;
+    uint64_t number;       // of the hit
+    TextureHit *at;        // what the textures see of it
+    TextureSpaces *spaces; // those that are around the texture at hand
 } Surface;
 
 // One layer under the lights.

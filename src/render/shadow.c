@@ -7,6 +7,8 @@
 // and makes them depend on the pixels before; we leave it out.
 #include "render/shading.h"
 
+#include "texture/pigment.h"
+
 #include <math.h>
 
 // POV-Ray takes depths > SHADE_SHADOW_TOL; our queries take t >= t_min.
@@ -36,31 +38,72 @@ static void cross(Crossed *crossed, uint32_t body) {
         crossed->bodies[crossed->count++] = body;
 }
 
+typedef struct {
+    const Shading *shading;
+    Vec3 dir, normal; // the ray's; the surface's, turned against it
+    float caustics;
+    TextureHit *at;
+    TextureSpaces *spaces;
+} Filter;
+
+// What one stack of layers lets through at p, as a colour that filters all of it.
+static Color layers_filter(const Filter *f, const Texture *texture, Vec3 p) {
+    const Textures *textures = &f->shading->textures;
+    Rgb through = rgb(1.0f, 1.0f, 1.0f);
+    for (uint32_t i = 0; i < texture->layer_count; i++) {
+        const Layer *layer = &texture->layers[i];
+        Color c;
+        if (pigment_color(textures, layer->pigment, f->at, p, &c))
+            through = rgb_mul(through, color_through(c));
+        if (f->caustics == 0.0f)
+            continue;
+        Vec3 normal = f->normal;
+        if (f->shading->quality.normals)
+            normal = texture_normal(textures, layer, f->spaces, f->at, p, normal);
+        through = rgb_scale(through, 1.0 + pow(fabs(vec_dot(normal, f->dir)), f->caustics));
+    }
+    return (Color){through.r, through.g, through.b, 1.0f, 0.0f};
+}
+
+static Color texture_filter(const Filter *f, uint32_t index, Vec3 p) {
+    TextureChoice choice = texture_choose(&f->shading->textures, index, f->spaces, f->at, p);
+    if (choice.layers != NULL)
+        return layers_filter(f, choice.layers, choice.p);
+    if (choice.average) {
+        TextureMean mean = {0};
+        for (uint32_t i = choice.first; i < choice.second; i++)
+            mean = texture_mean(mean, choice.entries[i].value,
+                                texture_filter(f, choice.entries[i].index, choice.p));
+        return texture_mean_color(mean);
+    }
+    Color first = texture_filter(f, choice.entries[choice.first].index, choice.p);
+    if (choice.first == choice.second)
+        return first;
+    return texture_mix(choice.share, first,
+                       texture_filter(f, choice.entries[choice.second].index, choice.p));
+}
+
 // What the surface at hit lets through; false when nothing.
 static bool surface_filter(const Shading *shading, const Ray *ray, const InteriorList *inside,
                            const WorldHit *hit, Crossed *crossings, Rgb *color) {
     const ObjectInfo *info = &shading->objects[hit->object];
     if (info->opaque)
         return false;
-    const Scene *scene = shading->scene;
-    const Object *object = &scene->objects[hit->object];
+    const Object *object = &shading->scene->objects[hit->object];
     double cosine = vec_dot(hit->normal, ray->dir);
     uint32_t index = surface_texture(object, cosine);
     if (index == NO_INDEX)
         return false;
 
-    const Texture *texture = &scene->textures[index];
-    TexturePoint at = texture_point(texture, object->uv_mapping, hit->p, hit->u, hit->v,
-                                    shading->quality.quick_color);
-    const Interior *interior = body_interior(scene, info->body);
-    Rgb through = rgb(1.0f, 1.0f, 1.0f);
-    for (uint32_t i = 0; i < texture->layer_count; i++) {
-        Color c;
-        if (pigment_color(scene, texture->layers[i].pigment, &at, &c))
-            through = rgb_mul(through, color_through(c));
-        if (interior != NULL && interior->caustics != 0.0f)
-            through = rgb_scale(through, 1.0 + pow(fabs(cosine), interior->caustics));
-    }
+    const Interior *interior = body_interior(shading->scene, info->body);
+    Vec3 normal = cosine > 0.0 ? vec_neg(hit->normal) : hit->normal;
+    TextureHit at = {hit->p, ray->dir, hit->u, hit->v, normal, shading->quality.quick_color};
+    TextureSpaces spaces;
+    spaces.count = 0;
+    Filter f = {shading, ray->dir, normal, interior != NULL ? interior->caustics : 0.0f,
+                &at,     &spaces};
+    Vec3 p = object->uv_mapping ? vec3(hit->u, hit->v, 0.0) : hit->p;
+    Rgb through = color_through(texture_filter(&f, index, p));
     if (interior != NULL && interior->fade_power > 0.0f) {
         if (interior_inside(inside, info->body) != has_crossed(crossings, info->body))
             through = rgb_mul(through, refract_fade(interior, hit->t));

@@ -4,8 +4,6 @@
 #include "render/shading.h"
 #include "render/story.h"
 
-#include "texture/noise.h"
-
 #include <math.h>
 #include <string.h>
 
@@ -23,6 +21,7 @@ static Quality quality_of(int level) {
         .refraction = level >= 6,
         .reflection = level >= 8,
         .air = level >= 9,
+        .normals = level >= 8,
     };
 }
 
@@ -64,19 +63,17 @@ static void prepare_lights(Shading *shading) {
 }
 
 Shading *shading_create(const Scene *scene, const World *world, const TraceOptions *options) {
-    noise_prepare();
     Arena *arena = arena_create();
     Shading *shading = ARENA_NEW(arena, Shading);
     shading->arena = arena;
     shading->scene = scene;
     shading->world = world;
+    shading->textures = textures_make(scene);
     shading->options = *options;
     shading->quality = quality_of(options->quality);
     shading->legacy = scene->settings.version < 370;
     prepare_objects(shading);
-    for (uint32_t i = 0; i < scene->texture_count; i++)
-        if (scene->textures[i].layer_count > shading->layer_limit)
-            shading->layer_limit = scene->textures[i].layer_count;
+    shading->layer_limit = texture_layer_limit(scene);
     prepare_lights(shading);
     shading->bows = ARENA_ARRAY(arena, BowAngles, scene->rainbow_count);
     for (uint32_t i = 0; i < scene->rainbow_count; i++)

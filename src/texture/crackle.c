@@ -42,6 +42,12 @@ static Vec3 site_of(int x, int y, int z) {
     return vec3(x + noise_random(i), y + noise_random(i + 1), z + noise_random(i + 2));
 }
 
+Vec3 crackle_site(Vec3 p) {
+    double x = floor(p.x - FORMULA_EPS), y = floor(p.y - FORMULA_EPS), z = floor(p.z - FORMULA_EPS);
+    uint32_t i = noise_cell(noise_int(x), noise_int(y), noise_int(z));
+    return vec3(x + noise_random(i), y + noise_random(i + 1), z + noise_random(i + 2));
+}
+
 static Nearest nearest_sites(double metric, Vec3 p) {
     // Cells so far away that they are no int share one; a step of 2 from them must still be one.
     const double far = 2147483640.0;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The formulas behind pattern.c, a file a family: tiles.c (lists of tiles and cells), solid.c
-// (plain geometry), stone.c (made of noise), crackle.c. All take the point after the warps and
-// return the value before frequency, phase and wave (facts: textures 2).
+// (plain geometry), stone.c (made of noise), crackle.c, bump.c (normals). All take the point after
+// the warps and return the value before frequency, phase and wave (facts: textures 2).
 #ifndef TEXTURE_FORMULA_H
 #define TEXTURE_FORMULA_H
 
@@ -44,6 +44,20 @@ double stone_spiral1(const Pattern *pattern, Vec3 p, int generator);
 double stone_spiral2(const Pattern *pattern, Vec3 p, int generator);
 double stone_wood(const Pattern *pattern, Vec3 p);
 double stone_wrinkles(Vec3 p, int generator);
+
+// quilted: the place in its cell, scaled by the curve of its distance from the middle.
+Vec3 tiles_quilt(const Pattern *pattern, Vec3 p);
+
+// The point that is strewn into the cell of p.
+Vec3 crackle_site(Vec3 p);
+
+// bump.c: n bent by the pattern at p.
+Vec3 bump_bumps(double amount, Vec3 p, Vec3 n);
+Vec3 bump_dents(double amount, Vec3 p, Vec3 n, int generator);
+Vec3 bump_facets(const FacetsShape *shape, Vec3 p, Vec3 n);
+Vec3 bump_quilted(const Pattern *pattern, double amount, Vec3 p, Vec3 n);
+Vec3 bump_waves(const Pattern *pattern, double amount, Vec3 p, Vec3 n, int count); // or ripples
+Vec3 bump_wrinkles(double amount, Vec3 p, Vec3 n);
 
 double crackle_value(const CrackleShape *shape, Vec3 p, int generator);
 

@@ -58,11 +58,15 @@ static double wave(const Pattern *pattern, double v) {
     return v;
 }
 
+int pattern_generator(const Textures *textures, const Pattern *pattern) {
+    return pattern->noise_generator ? pattern->noise_generator
+                                    : textures->scene->settings.noise_generator;
+}
+
 // The formula's value; split in two only for length.
-static double noise_formula(const Settings *settings, const Pattern *pattern, Vec3 p) {
-    int generator = pattern->noise_generator;
-    if (generator == 0)
-        generator = settings->noise_generator;
+static double noise_formula(const Textures *textures, const Pattern *pattern, Vec3 p) {
+    const Settings *settings = &textures->scene->settings;
+    int generator = pattern_generator(textures, pattern);
     switch (pattern->type) {
     case PATTERN_AGATE:
         return stone_agate(pattern, p, generator);
@@ -94,7 +98,7 @@ static double noise_formula(const Settings *settings, const Pattern *pattern, Ve
     }
 }
 
-static double formula(const Settings *settings, const Pattern *pattern, Vec3 p) {
+static double formula(const Textures *textures, const Pattern *pattern, Vec3 p) {
     switch (pattern->type) {
     case PATTERN_CHECKER:
         return tiles_checker(p);
@@ -129,12 +133,14 @@ static double formula(const Settings *settings, const Pattern *pattern, Vec3 p) 
     case PATTERN_TRIANGULAR:
         return tiles_triangular(p);
     default:
-        return noise_formula(settings, pattern, p);
+        return noise_formula(textures, pattern, p);
     }
 }
 
-double pattern_value(const Settings *settings, const Pattern *pattern, Vec3 warped) {
-    double v = formula(settings, pattern, warped);
+double pattern_value(const Textures *textures, const Pattern *pattern, const TextureHit *hit,
+                     Vec3 warped) {
+    (void)hit;
+    double v = formula(textures, pattern, warped);
     if (pattern->frequency != 0.0f)
         v = fmod(v * pattern->frequency + pattern->phase, WRAP);
     if (v < 0.0)

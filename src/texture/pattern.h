@@ -3,14 +3,17 @@
 #ifndef TEXTURE_PATTERN_H
 #define TEXTURE_PATTERN_H
 
-#include "model/scene.h"
+#include "texture/textures.h"
 
 // The point after the pattern's chain of warps, each coordinate clamped to +-1e17.
 Vec3 pattern_point(const Pattern *pattern, Vec3 p);
 
 // The pattern's value at a point that went through pattern_point(): after frequency, phase and
-// wave. Not for PATTERN_PLAIN, which has none. settings: the scene's, for its noise generator and
-// number of waves.
-double pattern_value(const Settings *settings, const Pattern *pattern, Vec3 warped);
+// wave. Not for PATTERN_PLAIN, PATTERN_AVERAGE and the patterns that only bend normals.
+double pattern_value(const Textures *textures, const Pattern *pattern, const TextureHit *hit,
+                     Vec3 warped);
+
+// The noise generator in force: the pattern's own, or the scene's.
+int pattern_generator(const Textures *textures, const Pattern *pattern);
 
 #endif

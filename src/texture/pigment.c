@@ -4,28 +4,13 @@
 // put the point, so that nested transforms compose.
 #include "texture/pigment.h"
 
+#include "texture/map.h"
 #include "texture/pattern.h"
 
 #include <assert.h>
 #include <math.h>
 
 static const float EPS = 1e-10f; // POV-Ray's near-zero: less does not make a colour transparent
-
-// The two neighbours of v in the map; the same one twice when no blending is needed. Entries keep
-// the order of the file; at a position written twice the first counts, but at the last one the
-// last.
-static void map_find(const Pigment *pigment, double v, uint32_t *before, uint32_t *at) {
-    const MapEntry *entries = pigment->entries;
-    uint32_t last = pigment->entry_count - 1, i = 0;
-    if (v >= entries[last].value) {
-        *before = *at = last;
-        return;
-    }
-    while (i < last && v > entries[i].value)
-        i++;
-    *at = i;
-    *before = i == 0 || v == entries[i].value ? i : i - 1;
-}
 
 static Color blend(Color from, Color to, double w) {
     return (Color){
@@ -37,22 +22,23 @@ static Color blend(Color from, Color to, double w) {
     };
 }
 
-static bool entry_color(const Scene *scene, const MapEntry *entry, const TexturePoint *at,
-                        Color *color) {
+static bool entry_color(const Textures *textures, const MapEntry *entry, const TextureHit *hit,
+                        Vec3 p, Color *color) {
     if (entry->pigment != NO_INDEX)
-        return pigment_color(scene, entry->pigment, at, color);
+        return pigment_color(textures, entry->pigment, hit, p, color);
     *color = entry->color;
     return true;
 }
 
 // The mean of the entries by their weights; sums and weights are float.
-static Color average(const Scene *scene, const Pigment *pigment, const TexturePoint *at) {
+static Color average(const Textures *textures, const Pigment *pigment, const TextureHit *hit,
+                     Vec3 p) {
     Color sum = {0};
     float total = 0.0f;
     for (uint32_t i = 0; i < pigment->entry_count; i++) {
         const MapEntry *entry = &pigment->entries[i];
         Color c;
-        entry_color(scene, entry, at, &c);
+        entry_color(textures, entry, hit, p, &c);
         sum.r += c.r * entry->value;
         sum.g += c.g * entry->value;
         sum.b += c.b * entry->value;
@@ -64,10 +50,11 @@ static Color average(const Scene *scene, const Pigment *pigment, const TexturePo
                    sum.transmit / total};
 }
 
-bool pigment_color(const Scene *scene, uint32_t index, const TexturePoint *at, Color *color) {
-    assert(index < scene->pigment_count);
-    const Pigment *pigment = &scene->pigments[index];
-    if (at->quick && pigment->has_quick_color) {
+bool pigment_color(const Textures *textures, uint32_t index, const TextureHit *hit, Vec3 p,
+                   Color *color) {
+    assert(index < textures->scene->pigment_count);
+    const Pigment *pigment = &textures->scene->pigments[index];
+    if (hit->quick && pigment->has_quick_color) {
         *color = pigment->quick_color;
         return true;
     }
@@ -75,22 +62,21 @@ bool pigment_color(const Scene *scene, uint32_t index, const TexturePoint *at, C
         *color = pigment->color;
         return true;
     }
-    TexturePoint inner = *at;
     if (pigment->uv_mapping)
-        inner.p = vec3(at->u, at->v, 0.0);
-    inner.p = pattern_point(&pigment->pattern, inner.p);
+        p = vec3(hit->u, hit->v, 0.0);
+    p = pattern_point(&pigment->pattern, p);
     if (pigment->pattern.type == PATTERN_AVERAGE) {
-        *color = average(scene, pigment, &inner);
+        *color = average(textures, pigment, hit, p);
         return true;
     }
-    double v = pattern_value(&scene->settings, &pigment->pattern, inner.p);
-    uint32_t i, j;
-    map_find(pigment, v, &i, &j);
-    const MapEntry *before = &pigment->entries[i], *entry = &pigment->entries[j];
-    bool found = entry_color(scene, entry, &inner, color);
-    if (i != j) {
+    double v = pattern_value(textures, &pigment->pattern, hit, p);
+    const MapEntry *entries = pigment->entries;
+    MapPlace place = map_find(&entries->value, sizeof *entries, pigment->entry_count, v);
+    const MapEntry *before = &entries[place.before], *entry = &entries[place.at];
+    bool found = entry_color(textures, entry, hit, p, color);
+    if (before != entry) {
         Color from;
-        found |= entry_color(scene, before, &inner, &from);
+        found |= entry_color(textures, before, hit, p, &from);
         *color = blend(from, *color, (v - before->value) / (entry->value - before->value));
     }
     return found;

@@ -110,13 +110,17 @@ double tiles_triangular(Vec3 p) {
     return upper ? 5 - r : r;
 }
 
-double tiles_quilted(const Pattern *pattern, Vec3 p) {
+Vec3 tiles_quilt(const Pattern *pattern, Vec3 p) {
     Vec3 v = vec3(p.x - floor_mirrored(p.x) - 0.5, p.y - floor_mirrored(p.y) - 0.5,
                   p.z - floor_mirrored(p.z) - 0.5);
     double t = vec_length(v), c0 = pattern->quilted[0], c1 = pattern->quilted[1];
     double t2 = t * t, t3 = t * t2, rest = 1.0 - t;
     double q = t3 + 3.0 * t * (rest * rest) * c0 + 3.0 * t2 * rest * c1;
     q *= 1.154700538;
-    v = vec_scale(v, q);
+    return vec_scale(v, q);
+}
+
+double tiles_quilted(const Pattern *pattern, Vec3 p) {
+    Vec3 v = tiles_quilt(pattern, p);
     return (fabs(v.x) + fabs(v.y) + fabs(v.z)) / 3.0;
 }

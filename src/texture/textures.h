@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+// A scene's textures made ready to be asked, and what is known of the point that is asked about.
+#ifndef TEXTURE_TEXTURES_H
+#define TEXTURE_TEXTURES_H
+
+#include "model/scene.h"
+
+typedef struct {
+    const Scene *scene; // must outlive this
+} Textures;
+
+// Builds the tables of the noise too.
+Textures textures_make(const Scene *scene);
+
+// The surface where a ray has met it.
+typedef struct {
+    Vec3 p;      // in the world
+    Vec3 dir;    // of the ray
+    double u, v; // texture coordinates
+    Vec3 normal; // what `slope` and `aoi` see: the surface's, turned against the ray, until a
+                 // normal bends it; then whatever was bent last
+    bool quick;  // quality 0..5: a quick_color stands for its pigment
+} TextureHit;
+
+// Where nothing was met: skies, fog, functions.
+TextureHit texture_no_hit(bool quick);
+
+#endif

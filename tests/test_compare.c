@@ -14,6 +14,7 @@
 #include "reference.h"
 #include "report/heat.h"
 #include "report/html.h"
+#include "report/places.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -27,10 +28,10 @@
 typedef struct {
     Arena *arena;
     char folder[64], root[512];
-} Place;
+} Folder;
 
 static int create(void **state) {
-    Place *place = calloc(1, sizeof *place);
+    Folder *place = calloc(1, sizeof *place);
     place->arena = arena_create();
     strcpy(place->folder, "/tmp/qipov-compare-XXXXXX");
     *state = place;
@@ -38,7 +39,7 @@ static int create(void **state) {
 }
 
 static int destroy(void **state) {
-    Place *place = *state;
+    Folder *place = *state;
     char command[128];
     snprintf(command, sizeof command, "rm -rf %s", place->folder);
     int status = system(command);
@@ -47,12 +48,12 @@ static int destroy(void **state) {
     return status;
 }
 
-static const char *in(const Place *place, const char *name) {
+static const char *in(const Folder *place, const char *name) {
     return arena_printf(place->arena, "%s/%s", place->folder, name);
 }
 
 // Runs qicompare in the folder; what it prints (both streams) goes to *said.
-static int compare(const Place *place, const char *words, const char **said) {
+static int compare(const Folder *place, const char *words, const char **said) {
     if (access(PROGRAM, X_OK) != 0) {
         print_message("skipped: " PROGRAM " is not built\n");
         skip();
@@ -76,7 +77,7 @@ static Image *plain(Arena *arena, int width, int height, float value) {
 }
 
 // one.png is grey; in two.png one pixel of 100 is off by 51 steps (0.2) and one by a single step.
-static void write_pictures(const Place *place) {
+static void write_pictures(const Folder *place) {
     const ImageWriteOptions o = image_write_options_default();
     Image *image = plain(place->arena, 10, 10, 102.0f / 255.0f);
     image_write(in(place, "one.png"), image, &o);
@@ -90,7 +91,7 @@ static void write_pictures(const Place *place) {
 // ----------------------------------------------------------------------------------------
 
 static void exit_status(void **state) {
-    Place *place = *state;
+    Folder *place = *state;
     write_pictures(place);
     const struct {
         const char *words;
@@ -125,7 +126,7 @@ static void exit_status(void **state) {
 }
 
 static void figures_as_printed(void **state) {
-    Place *place = *state;
+    Folder *place = *state;
     write_pictures(place);
     const char *said;
     compare(place, "one.png two.png --fail 0.1", &said);
@@ -168,7 +169,7 @@ static void scale_and_classes(void **state) {
 }
 
 static void cuts_stay_inside(void **state) {
-    Place *place = *state;
+    Folder *place = *state;
     Image *image = plain(place->arena, 50, 20, 0);
     for (int i = 0; i < 50 * 20; i++)
         image->pixels[3 * i] = (float)i;
@@ -229,7 +230,7 @@ static size_t count_of(const char *text, const char *part) {
 }
 
 static void page_holds_everything(void **state) {
-    Place *place = *state;
+    Folder *place = *state;
     write_pictures(place);
     const char *odd = "o&dd '<b>.png";
     assert_int_equal(rename(in(place, "one.png"), in(place, odd)), 0);
@@ -246,7 +247,7 @@ static void page_holds_everything(void **state) {
     assert_null(strstr(page, "<b>."));
     assert_non_null(strstr(page, "o&amp;dd &#39;&lt;b&gt;.png"));
     assert_int_equal(count_of(page, "src="), count_of(page, "src=\"data:image/png;base64,"));
-    assert_int_equal(count_of(page, "src="), 7); // two, map, scale, three cut-outs
+    assert_int_equal(count_of(page, "src="), 7); // two, map, scale, three cut-outs: one place
     assert_int_equal(count_of(page, "<img"), count_of(page, " alt="));
     assert_int_equal(count_of(page, "<figure"), count_of(page, "</figure>"));
     assert_int_equal(count_of(page, "<div"), count_of(page, "</div>"));
@@ -275,7 +276,7 @@ static void page_holds_everything(void **state) {
 }
 
 static void script_runs_in_a_browser(void **state) {
-    Place *place = *state;
+    Folder *place = *state;
     if (system("command -v chromium >/dev/null 2>&1") != 0) {
         print_message("skipped: chromium is not installed\n");
         skip();
@@ -301,7 +302,7 @@ static void script_runs_in_a_browser(void **state) {
 
 // A ball of one colour under an orthographic camera: both renderers give the same bytes.
 static void one_scene_both_renderers(void **state) {
-    Place *place = *state;
+    Folder *place = *state;
     if (!reference_available()) {
         print_message("skipped: povray is not installed\n");
         skip();
@@ -341,6 +342,99 @@ static void one_scene_both_renderers(void **state) {
     assert_non_null(strstr(said, "Redd"));
 }
 
+// Only what --region names is compared; places keep their numbers in the whole picture.
+static void regions(void **state) {
+    Folder *place = *state;
+    write_pictures(place);
+    const char *said;
+    assert_int_equal(compare(place, "one.png two.png --fail 0.0041 --region 2,1,8,5", &said), 1);
+    assert_non_null(strstr(said, "1 pixels (2.5%) off by more than one step"));
+    assert_non_null(strstr(said, "@ (4, 3, channel"));
+    assert_int_equal(compare(place, "one.png two.png --fail 0.0041 --region 5,0,5,10", &said), 0);
+    assert_int_equal(compare(place, "one.png two.png --region 10,0,4,10", &said), 1);
+    assert_non_null(strstr(said, "outside"));
+    assert_int_equal(compare(place, "one.png two.png --region 1,2,3", &said), 2);
+    assert_non_null(strstr(said, "left,top,width,height"));
+}
+
+// Places: the worst first, each with its own neighbourhood, none below the limit.
+static void places_are_apart(void **state) {
+    Folder *p = *state;
+    Image *off = ARENA_NEW(p->arena, Image);
+    *off = (Image){.width = 64, .height = 48, .channels = 1, .bits = 32};
+    off->pixels = ARENA_ARRAY(p->arena, float, 64 * 48);
+    off->pixels[10 * 64 + 20] = 0.5f;
+    off->pixels[11 * 64 + 21] = 0.45f; // the same place
+    off->pixels[40 * 64 + 60] = 0.75f;
+    off->pixels[0] = 0.25f;
+    off->pixels[63] = 0.05f;
+    Place found[8];
+    assert_int_equal(places_find(off, 0.1, 8, found), 3);
+    assert_true(found[0].x == 60 && found[0].y == 40 && found[0].difference == 0.75);
+    assert_true(found[1].x == 20 && found[1].y == 10);
+    assert_true(found[2].x == 0 && found[2].y == 0);
+    assert_int_equal(places_find(off, 0.1, 2, found), 2);
+}
+
+// The causes, each from pictures that can only mean that one.
+static void causes_are_proved(void **state) {
+    Folder *p = *state;
+    Image *a = plain(p->arena, 20, 20, 0.5f), *b = plain(p->arena, 20, 20, 0.5f),
+          *c = plain(p->arena, 20, 20, 0.5f);
+    b->pixels[3 * (10 * 20 + 10)] = 0.7f;
+    c->pixels[3 * (10 * 20 + 10)] = 0.6f;
+    const double limit = 1.0 / 255.0;
+    Place place = {.x = 10, .y = 10, .difference = 0.2};
+    PlaceProof proof = {.povray = a, .ours = b};
+    places_judge(&proof, limit, &place, 1);
+    assert_int_equal(place.cause, CAUSE_UNKNOWN);
+    proof.facets = a, proof.finer = c; // with triangles it is POV-Ray's
+    places_judge(&proof, limit, &place, 1);
+    assert_int_equal(place.cause, CAUSE_GEOMETRY);
+    assert_true(fabs(place.coarse - 0.2) < 1e-6 && fabs(place.fine - 0.1) < 1e-6);
+    proof.facets = b; // the triangles change nothing
+    places_judge(&proof, limit, &place, 1);
+    assert_int_equal(place.cause, CAUSE_SHADING);
+    proof.povray_plain = proof.plain = c; // without anti-aliasing they agree
+    places_judge(&proof, limit, &place, 1);
+    assert_int_equal(place.cause, CAUSE_SAMPLING);
+    // A place at the edge of the picture has less around it.
+    place = (Place){.x = 0, .y = 19, .difference = 0.2};
+    places_judge(&proof, limit, &place, 1);
+    assert_true(place.facets == 0.0);
+}
+
+// A patch cut coarsely, and a scene that is not there: a page each and one over them.
+static void several_scenes(void **state) {
+    Folder *place = *state;
+    if (!reference_available()) {
+        print_message("skipped: povray is not installed\n");
+        skip();
+    }
+    FILE *f = fopen(in(place, "patch.pov"), "w");
+    fputs("#version 3.7; global_settings { assumed_gamma 1.0 }\n"
+          "camera { location -5*z angle 40 }\nlight_source { <3, 5, -9>, 1 }\n"
+          "bicubic_patch { type 1 u_steps 1 v_steps 1 <-1,-1,0> <-1,-.3,-2> <-1,.3,-2> <-1,1,0>\n"
+          "<-.3,-1,0> <-.3,-.3,2> <-.3,.3,0> <-.3,1,0> <.3,-1,0> <.3,-.3,0> <.3,.3,2> <.3,1,0>\n"
+          "<1,-1,0> <1,-.3,0> <1,.3,0> <1,1,0> pigment { rgb <.9,.5,.2> } }\n",
+          f);
+    fclose(f);
+    const char *said;
+    int status =
+        compare(place, "patch.pov nowhere.pov -o all +W80 +H60 -V --fail 0.0041 --places 3", &said);
+    assert_int_equal(status, 1);
+    assert_non_null(strstr(said, "3 of the 3 worst places: geometry"));
+    assert_non_null(strstr(said, "nowhere.pov: not compared"));
+    const char *page = file_read(place->arena, in(place, "all/index.html"), NULL, NULL);
+    assert_non_null(strstr(page, "href=\"patch/index.html\""));
+    assert_non_null(strstr(page, "3 geometry"));
+    assert_non_null(strstr(page, "not compared"));
+    page = file_read(place->arena, in(place, "all/patch/index.html"), NULL, NULL);
+    assert_int_equal(count_of(page, "Cause: <b>geometry</b>"), 3);
+    assert_int_equal(count_of(page, "How the pixel comes about"), 6);
+    assert_non_null(strstr(page, "QI nets down to it"));
+}
+
 #define TEST(function) cmocka_unit_test_setup_teardown(function, create, destroy)
 
 int main(void) {
@@ -353,6 +447,10 @@ int main(void) {
         TEST(page_holds_everything),
         TEST(script_runs_in_a_browser),
         TEST(one_scene_both_renderers),
+        TEST(regions),
+        TEST(places_are_apart),
+        TEST(causes_are_proved),
+        TEST(several_scenes),
     };
     return cmocka_run_group_tests_name("compare", tests, NULL, NULL);
 }

@@ -1,175 +1,166 @@
 // SPDX-License-Identifier: MIT
 // qicompare: how far two pictures differ, in figures and as a page. Given a scene, it renders it
-// first, with povray and with the qirender beside it, at the same switches.
+// first, with povray and with the qirender beside it, at the same switches, and finds out why they
+// differ where they do (report/places.h). Several scenes give a page each and one over all of them.
 #include "base/diag.h"
 #include "base/file.h"
-#include "base/progress.h"
 #include "base/version.h"
 #include "options/animation.h"
 #include "options/options.h"
 #include "report/compare_page.h"
+#include "report/index_page.h"
 
 #include <errno.h>
-#include <fcntl.h>
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/resource.h>
 #include <sys/stat.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
-// ---- commands
-// -------------------------------------------------------------------------------------
+// A pixel is off when it differs by more than one step of 8 bits.
+static const double ONE_STEP = 1.0 / 255.0 * (1.0 + 1e-4);
 
-// The words of a command; the last is NULL.
+// ---- renders
+// --------------------------------------------------------------------------------------
+
+// One scene at work.
 typedef struct {
-    const char **words;
-    size_t count;
-} Command;
+    const RenderOptions *options;
+    const char *scene, *folder;
+    ComparePage *page;
+    Arena *arena;
+} Job;
 
-static void add(Command *command, const char *word) { command->words[command->count++] = word; }
+// One program with some words behind those of the command line. name: of the picture and the log.
+typedef struct {
+    bool povray;
+    const char *name, *title;
+    const char *words[4];
+    bool picture; // else only what it says is wanted
+} Task;
 
-// The words as a shell would have to be given them.
-static const char *command_text(Arena *arena, const Command *command) {
-    const char *plain = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+-=_./:,@%";
-    char *text = arena_strdup(arena, "");
-    for (size_t i = 0; i < command->count; i++) {
-        const char *word = command->words[i], *gap = i ? " " : "";
-        if (*word && !word[strspn(word, plain)]) {
-            text = arena_printf(arena, "%s%s%s", text, gap, word);
-            continue;
-        }
-        text = arena_printf(arena, "%s%s'", text, gap);
-        for (; *word; word++)
-            text = arena_printf(arena, *word == '\'' ? "%s'\\'%c'" : "%s%c", text, *word);
-        text = arena_printf(arena, "%s'", text);
-    }
-    return text;
-}
-
-// The end of a log: its last lines, which say what went wrong.
-static const char *tail(const char *text) {
-    enum { LINES = 12 };
-    const char *at = text + strlen(text);
-    for (int lines = 0; at > text && lines <= LINES; at--)
-        lines += at[-1] == '\n';
-    return at > text ? at + 1 : text;
-}
-
-static double user_seconds(const struct rusage *use) {
-    return (double)use->ru_utime.tv_sec + 1e-6 * (double)use->ru_utime.tv_usec;
-}
-
-// Runs the command with both its outputs in the file `log`, waits, and notes times and words. Dies
-// if it cannot be run or fails; status 2 when it was interrupted.
-static void render_with(Command *command, const char *log, CompareSide *side, Arena *arena) {
-    command->words[command->count] = NULL;
-    side->command = command_text(arena, command);
-    double start = progress_seconds();
-    fflush(NULL);
-    pid_t child = fork();
-    if (child < 0)
-        die("cannot start %s: %s", command->words[0], strerror(errno));
-    if (child == 0) {
-        int file = open(log, O_WRONLY | O_CREAT | O_TRUNC, 0666),
-            none = open("/dev/null", O_RDONLY);
-        if (file >= 0 && none >= 0 && dup2(none, 0) == 0 && dup2(file, 1) == 1 &&
-            dup2(file, 2) == 2)
-            execvp(command->words[0], (char *const *)(uintptr_t)command->words);
-        _exit(127);
-    }
-    int status;
-    struct rusage use;
-    while (wait4(child, &status, 0, &use) < 0)
-        if (errno != EINTR)
-            die("cannot wait for %s: %s", command->words[0], strerror(errno));
-    side->elapsed = progress_seconds() - start;
-    side->seconds = user_seconds(&use);
-    const char *said = file_read(arena, log, NULL, NULL);
-    side->log = said ? said : "";
-    if (WIFSIGNALED(status) || (WIFEXITED(status) && WEXITSTATUS(status) == 2))
-        die("%s was interrupted or misused:\n%s\n%s", side->name, side->command, tail(side->log));
-    if (WEXITSTATUS(status) == 127)
-        die("%s could not be run; is it installed?\n%s", side->name, side->command);
-    if (status != 0)
-        die("%s failed:\n%s\n%s", side->name, side->command, tail(side->log));
-}
-
-// The qirender that stands beside this program.
-static const char *find_qirender(Arena *arena) {
-    char own[4096];
-    ssize_t length = readlink("/proc/self/exe", own, sizeof own - 1);
-    if (length < 0)
-        die("cannot find the folder of this program: %s", strerror(errno));
-    own[length] = '\0';
-    char *slash = strrchr(own, '/');
-    const char *path = arena_printf(arena, "%.*s/qirender", (int)(slash - own), own);
-    if (access(path, X_OK) != 0)
-        die("cannot run '%s': %s", path, strerror(errno));
-    return path;
-}
-
-static const char *machine_name(Arena *arena) {
-    const char *text = file_read(arena, "/proc/cpuinfo", NULL, NULL);
-    const char *model = text ? strstr(text, "model name") : NULL;
-    const char *colon = model ? strchr(model, ':') : NULL;
-    long cores = sysconf(_SC_NPROCESSORS_ONLN);
-    if (!colon)
-        return arena_printf(arena, "%ld cores", cores);
-    return arena_printf(arena, "%.*s, %ld core%s", (int)strcspn(colon + 2, "\n"), colon + 2, cores,
-                        cores == 1 ? "" : "s");
-}
-
-// Both renderers get the same words; qirender those with two dashes as well.
-static void render_both(const RenderOptions *o, const char *folder, ComparePage *page,
-                        Arena *arena) {
-    const char *extension = image_extension(o->format);
-    const char *program[2] = {"povray", find_qirender(arena)};
-    static const char *const names[2] = {"POV-Ray", "qirender"};
-    const char *slash = strrchr(o->input, '/');
+static void add_words(const Job *job, const Task *task, Command *command) {
+    const RenderOptions *o = job->options;
+    const char *slash = strrchr(job->scene, '/');
+    run_add(command, task->povray ? "povray" : run_find_qirender(job->arena));
+    // Both renderers get the same words; qirender those with two dashes as well.
+    for (size_t k = 0; k < o->shared_count; k++)
+        run_add(command, o->shared[k]);
     // POV-Ray looks for includes in the working directory, not beside the scene.
-    const char *library =
-        slash ? arena_printf(arena, "+L%.*s", (int)(slash - o->input) + 1, o->input) : "+L.";
-    for (int i = 0; i < 2; i++) {
-        CompareSide *side = &page->side[i];
-        side->name = names[i];
-        const char *picture =
-            arena_printf(arena, "%s/%s.%s", folder, i ? "qirender" : "povray", extension);
-        Command command = {ARENA_ARRAY(arena, const char *, o->shared_count + o->own_count + 10),
-                           0};
-        add(&command, program[i]);
-        for (size_t k = 0; k < o->shared_count; k++)
-            add(&command, o->shared[k]);
-        add(&command, library);
-        for (size_t k = 0; i == 1 && k < o->own_count; k++)
-            add(&command, o->own[k]);
-        // Last: an INI file among the words may name another picture.
-        add(&command, arena_printf(arena, "+I%s", o->input));
-        add(&command, arena_printf(arena, "+O%s", picture));
-        add(&command, arena_printf(arena, "+W%d", o->width));
-        add(&command, arena_printf(arena, "+H%d", o->height));
-        add(&command, "-D");
-        add(&command, "-P");
-        if (o->verbose)
-            fprintf(stderr, "%s ...\n", names[i]);
-        unlink(picture); // what is read below must be new
-        render_with(&command, arena_printf(arena, "%s/%s.txt", folder, i ? "qirender" : "povray"),
-                    side, arena);
-        side->image = image_read(arena, picture);
-    }
-    page->title = o->input;
-    page->machine = machine_name(arena);
+    run_add(command,
+            slash ? arena_printf(job->arena, "+L%.*s", (int)(slash - job->scene) + 1, job->scene)
+                  : "+L.");
+    for (size_t k = 0; !task->povray && k < o->own_count; k++)
+        run_add(command, o->own[k]);
+    for (int k = 0; k < 4 && task->words[k]; k++)
+        run_add(command, task->words[k]);
 }
 
-static void read_both(const RenderOptions *o, ComparePage *page, Arena *arena) {
-    for (int i = 0; i < 2; i++) {
-        page->side[i].name = o->pictures[i];
-        page->side[i].seconds = -1;
-        page->side[i].image = image_read(arena, o->pictures[i]);
+// The picture, of the part that is compared; NULL when none was asked for.
+static Image *render_task(const Job *job, const Task *task, Run *run) {
+    const RenderOptions *o = job->options;
+    Arena *arena = job->arena;
+    const char *picture =
+        arena_printf(arena, "%s/%s.%s", job->folder, task->name, image_extension(o->format));
+    Command command = {.count = 0};
+    add_words(job, task, &command);
+    // Last: an INI file among the words may name another picture.
+    run_add(&command, arena_printf(arena, "+I%s", job->scene));
+    run_add(&command, arena_printf(arena, "+O%s", picture));
+    run_add(&command, arena_printf(arena, "+W%d", o->width));
+    run_add(&command, arena_printf(arena, "+H%d", o->height));
+    run_add(&command, "-D");
+    run_add(&command, "-P");
+    if (o->verbose)
+        fprintf(stderr, "%s ...\n", task->title);
+    if (task->picture)
+        unlink(picture); // what is read below must be new
+    *run = run_command_line(&command, task->title,
+                            arena_printf(arena, "%s/%s.txt", job->folder, task->name), arena);
+    if (!task->picture)
+        return NULL;
+    Image *image = image_read(arena, picture);
+    const int *r = o->region;
+    return r[2] ? image_cut(arena, image, r[0], r[1], r[2], r[3]) : image;
+}
+
+// The story of a pixel; NULL if it cannot be had (it is only told beside the figures).
+typedef struct {
+    const Job *job;
+    const Task *task;
+    Run run;
+} StoryTask;
+
+static void run_story(void *context) {
+    StoryTask *s = context;
+    render_task(s->job, s->task, &s->run);
+}
+
+static const char *tell(const Job *job, int x, int y, bool facets) {
+    const char *pixel = arena_printf(job->arena, "%d,%d", x, y);
+    const Task task = {.name = "story",
+                       .title = "the story of a pixel",
+                       .words = {"--pixel", pixel, facets ? "--method" : NULL, "facets"}};
+    StoryTask s = {.job = job, .task = &task};
+    char *message = NULL;
+    if (!diag_catch(run_story, &s, &message)) {
+        free(message);
+        return NULL;
     }
-    page->title = arena_printf(arena, "%s and %s", o->pictures[0], o->pictures[1]);
+    // Warnings about the scene stand before it.
+    const char *start = strstr(s.run.log, "pixel (");
+    return start ? start : s.run.log;
+}
+
+// ---- causes
+// ---------------------------------------------------------------------------------------
+
+// Renders what proves why the places differ, and judges them.
+static void look_into(const Job *job) {
+    ComparePage *page = job->page;
+    Place *places = page->places;
+    Run unused;
+    const Task facets = {.name = "facets",
+                         .title = "qirender with POV-Ray's triangles",
+                         .words = {"--method", "facets"},
+                         .picture = true};
+    const Task finer = {.name = "facets-finer",
+                        .title = "the same, cut finer",
+                        .words = {"--method", "facets", "--finer", "1"},
+                        .picture = true};
+    PlaceProof proof = {.povray = page->side[0].image, .ours = page->side[1].image};
+    proof.facets = render_task(job, &facets, &unused);
+    proof.finer = render_task(job, &finer, &unused);
+    places_judge(&proof, ONE_STEP, places, page->place_count);
+
+    bool open = false;
+    for (int i = 0; i < page->place_count; i++)
+        open |= places[i].cause == CAUSE_SHADING;
+    if (open && job->options->antialias) {
+        const Task povray = {.povray = true,
+                             .name = "povray-plain",
+                             .title = "POV-Ray without anti-aliasing",
+                             .words = {"-A"},
+                             .picture = true};
+        const Task plain = {.name = "facets-plain",
+                            .title = "qirender with POV-Ray's triangles, without anti-aliasing",
+                            .words = {"--method", "facets", "-A"},
+                            .picture = true};
+        proof.povray_plain = render_task(job, &povray, &unused);
+        proof.plain = render_task(job, &plain, &unused);
+        places_judge(&proof, ONE_STEP, places, page->place_count);
+    }
+    for (int i = 0; i < page->place_count; i++)
+        for (int k = 0; k < 2; k++)
+            places[i].story[k] = tell(job, places[i].x + page->left, places[i].y + page->top, k);
+}
+
+static void find_places(const RenderOptions *o, ComparePage *page) {
+    Arena *scratch = arena_create();
+    const Image *off = image_difference(scratch, page->side[0].image, page->side[1].image);
+    page->place_count = places_find(off, ONE_STEP, o->places, page->places);
+    arena_destroy(scratch);
 }
 
 // ---- results
@@ -187,16 +178,25 @@ static void print_figures(const ComparePage *page, const RenderOptions *o) {
     if (d->max > 0) {
         printf("  Mean error = %.6g\n  RMS error = %.6g\n  Peak SNR = %.4g\n", d->mean, d->rms,
                d->psnr);
-        printf("  Max error  = %.6g @ (%d, %d, channel %d)\n", d->max, d->max_x, d->max_y,
-               d->max_channel);
+        printf("  Max error  = %.6g @ (%d, %d, channel %d)\n", d->max, d->max_x + page->left,
+               d->max_y + page->top, d->max_channel);
         printf("  %llu pixels (%.3g%%) off by more than one step of 8 bits\n",
                (unsigned long long)d->different, 100.0 * (double)d->different / (double)d->pixels);
         print_limit(d->warned, d->pixels, o->warn);
         print_limit(d->failed, d->pixels, o->fail);
     }
-    if (page->side[0].seconds >= 0)
-        printf("  User seconds: %s %.2f, %s %.2f\n", page->side[0].name, page->side[0].seconds,
-               page->side[1].name, page->side[1].seconds);
+    if (page->side[0].run.seconds >= 0)
+        printf("  User seconds: %s %.2f, %s %.2f\n", page->side[0].name, page->side[0].run.seconds,
+               page->side[1].name, page->side[1].run.seconds);
+    if (d->perceptible >= 0)
+        printf("  %lld pixels differ to the eye (Yee)\n", (long long)d->perceptible);
+    int causes[CAUSE_COUNT] = {0};
+    for (int i = 0; i < page->place_count; i++)
+        causes[page->places[i].cause]++;
+    for (int i = CAUSE_GEOMETRY; i < CAUSE_COUNT; i++)
+        if (causes[i])
+            printf("  %d of the %d worst places: %s\n", causes[i], page->place_count,
+                   place_cause_name((PlaceCause)i));
     printf("%s\n", page->verdict);
 }
 
@@ -207,6 +207,14 @@ static const char *judge(const ImageDifference *d, const RenderOptions *o) {
     return (double)d->warned * share > o->warn_percent ? "WARNING" : "PASS";
 }
 
+static void make_folder(const char *folder) {
+    struct stat st;
+    if (mkdir(folder, 0777) != 0 && errno != EEXIST)
+        die("cannot make the folder '%s': %s", folder, strerror(errno));
+    if (stat(folder, &st) != 0 || !S_ISDIR(st.st_mode))
+        die("'%s' is not a folder", folder);
+}
+
 // The folder for pictures and page: what -o says, made if need be, or a new temporary one.
 static const char *output_folder(const RenderOptions *o, Arena *arena) {
     if (o->output) {
@@ -214,11 +222,7 @@ static const char *output_folder(const RenderOptions *o, Arena *arena) {
         size_t length = strlen(folder);
         while (length > 1 && folder[length - 1] == '/')
             folder[--length] = '\0';
-        if (mkdir(folder, 0777) != 0 && errno != EEXIST)
-            die("cannot make the folder '%s': %s", folder, strerror(errno));
-        struct stat st;
-        if (stat(folder, &st) != 0 || !S_ISDIR(st.st_mode))
-            die("'%s' is not a folder", folder);
+        make_folder(folder);
         return folder;
     }
     const char *base = getenv("TMPDIR");
@@ -226,6 +230,147 @@ static const char *output_folder(const RenderOptions *o, Arena *arena) {
     if (!mkdtemp(folder))
         die("cannot make a temporary folder '%s': %s", folder, strerror(errno));
     return folder;
+}
+
+// ---- comparisons
+// ----------------------------------------------------------------------------------
+
+static void finish(const RenderOptions *o, ComparePage *page) {
+    page->left = o->region[2] ? o->region[0] : 0;
+    page->top = o->region[2] ? o->region[1] : 0;
+    page->fail = o->fail;
+    page->fail_percent = o->fail_percent;
+    page->difference = image_compare(page->side[0].image, page->side[1].image, o->fail, o->warn);
+    page->verdict = judge(&page->difference, o);
+    find_places(o, page);
+}
+
+static void compare_scene(Job *job) {
+    static const Task tasks[2] = {
+        {.povray = true, .name = "povray", .title = "POV-Ray", .picture = true},
+        {.name = "qirender", .title = "qirender", .picture = true}};
+    ComparePage *page = job->page;
+    for (int i = 0; i < 2; i++) {
+        page->side[i].name = tasks[i].title;
+        page->side[i].image = render_task(job, &tasks[i], &page->side[i].run);
+    }
+    page->title = job->scene;
+    page->machine = run_machine(job->arena);
+    finish(job->options, page);
+    if (page->place_count > 0)
+        look_into(job);
+}
+
+static void compare_pictures(const RenderOptions *o, ComparePage *page, Arena *arena) {
+    for (int i = 0; i < 2; i++) {
+        Image *image = image_read(arena, o->pictures[i]);
+        const int *r = o->region;
+        if (r[2] && (r[0] >= image->width || r[1] >= image->height))
+            die("the region lies outside '%s', %d x %d pixels", o->pictures[i], image->width,
+                image->height);
+        page->side[i] =
+            (CompareSide){.name = o->pictures[i],
+                          .run = {.seconds = -1},
+                          .image = r[2] ? image_cut(arena, image, r[0], r[1], r[2], r[3]) : image};
+    }
+    page->title = arena_printf(arena, "%s and %s", o->pictures[0], o->pictures[1]);
+    finish(o, page);
+}
+
+static void write_page(const ComparePage *page, const char *folder, Arena *arena) {
+    const char *path = arena_printf(arena, "%s/index.html", folder);
+    compare_page_write(page, path);
+    printf("%s\n", path);
+}
+
+// One scene of several. What goes wrong with it is its row's, and the others go on.
+typedef struct {
+    Job job;
+    IndexRow *row;
+} SceneTask;
+
+static void run_scene(void *context) {
+    SceneTask *t = context;
+    make_folder(t->job.folder);
+    compare_scene(&t->job);
+    print_figures(t->job.page, t->job.options);
+    write_page(t->job.page, t->job.folder, t->job.arena);
+}
+
+// A picture of at most this width for the table; every nth pixel of the whole.
+static Image *thumbnail(Arena *arena, const Image *image) {
+    enum { WIDE = 160 };
+    int by = (image->width + WIDE - 1) / WIDE;
+    Image *small = ARENA_NEW(arena, Image);
+    *small = *image;
+    small->width = image->width / by > 0 ? image->width / by : 1;
+    small->height = image->height / by > 0 ? image->height / by : 1;
+    size_t channels = (size_t)image->channels;
+    small->pixels =
+        ARENA_ARRAY(arena, float, (size_t)small->width *(size_t)small->height *channels);
+    for (int y = 0; y < small->height; y++)
+        for (int x = 0; x < small->width; x++)
+            memcpy(small->pixels + ((size_t)y * (size_t)small->width + (size_t)x) * channels,
+                   image->pixels +
+                       ((size_t)(y * by) * (size_t)image->width + (size_t)(x * by)) * channels,
+                   channels * sizeof(float));
+    return small;
+}
+
+// The name of a scene's folder: its own without what comes before and after, and a number where two
+// scenes share it.
+static const char *scene_name(const RenderOptions *o, size_t index, Arena *arena) {
+    const char *path = o->scenes[index], *slash = strrchr(path, '/'),
+               *name = slash ? slash + 1 : path;
+    const char *dot = strrchr(name, '.');
+    char *stem = arena_printf(arena, "%.*s", (int)(dot - name), name);
+    for (size_t i = 0; i < o->scene_count; i++) {
+        const char *other = o->scenes[i], *cut = strrchr(other, '/');
+        if (i != index && strcmp(cut ? cut + 1 : other, name) == 0)
+            return arena_printf(arena, "%zu-%s", index + 1, stem);
+    }
+    return stem;
+}
+
+// True: all of them pass.
+static bool compare_scenes(const RenderOptions *o, const char *folder, Arena *arena) {
+    IndexRow *rows = ARENA_ARRAY(arena, IndexRow, o->scene_count);
+    bool good = true;
+    for (size_t i = 0; i < o->scene_count; i++) {
+        Arena *own = arena_create();
+        const char *name = scene_name(o, i, arena);
+        SceneTask task = {.row = &rows[i]};
+        task.job = (Job){.options = o,
+                         .scene = o->scenes[i],
+                         .folder = arena_printf(own, "%s/%s", folder, name),
+                         .page = ARENA_NEW(own, ComparePage),
+                         .arena = own};
+        IndexRow *row = &rows[i];
+        *row =
+            (IndexRow){.title = o->scenes[i], .link = arena_printf(arena, "%s/index.html", name)};
+        char *message = NULL;
+        if (diag_catch(run_scene, &task, &message)) {
+            const ComparePage *page = task.job.page;
+            row->verdict = page->verdict;
+            row->difference = page->difference;
+            for (int k = 0; k < 2; k++)
+                row->seconds[k] = page->side[k].run.seconds;
+            for (int k = 0; k < page->place_count; k++)
+                row->causes[page->places[k].cause]++;
+            row->picture = thumbnail(arena, page->side[1].image);
+            good = good && strcmp(page->verdict, "FAILURE") != 0;
+        } else {
+            row->failed = arena_strdup(arena, message);
+            printf("%s: not compared: %s\n", o->scenes[i], message);
+            free(message);
+            good = false;
+        }
+        arena_destroy(own);
+    }
+    const char *path = arena_printf(arena, "%s/index.html", folder);
+    index_page_write(rows, o->scene_count, run_machine(arena), path);
+    printf("%s\n", path);
+    return good;
 }
 
 static int usage(const char *why) {
@@ -238,9 +383,12 @@ static int check_words(const RenderOptions *o) {
         return usage("give a scene or two pictures, not both");
     if (!o->input && o->picture_count != 2)
         return usage("a scene or two pictures are needed");
-    size_t length = o->input ? strlen(o->input) : 0;
-    if (length > 5 && strcmp(o->input + length - 5, ".json") == 0)
-        return usage("POV-Ray must render it too, so the scene must be a .pov");
+    for (size_t i = 0; i < o->scene_count || (i == 0 && o->input); i++) {
+        const char *scene = i < o->scene_count ? o->scenes[i] : o->input;
+        size_t length = strlen(scene);
+        if (length > 5 && strcmp(scene + length - 5, ".json") == 0)
+            return usage("POV-Ray must render it too, so the scene must be a .pov");
+    }
     Animation animation;
     if (animation_of(o, &animation))
         return usage("an animation is compared frame by frame: give its clock with +K");
@@ -275,28 +423,28 @@ int main(int argc, char **argv) {
     }
     if (check_words(&options) != 0)
         return 2;
-    options.input = options_input_path(&options, arena);
-    if (options.input && !file_exists(options.input))
-        die("cannot read '%s': no such file", options.input);
-
-    // Two pictures alone need no folder; a scene always does.
-    ComparePage page = {.fail = options.fail, .fail_percent = options.fail_percent};
-    const char *folder = options.output || options.input ? output_folder(&options, arena) : NULL;
-    if (options.input)
-        render_both(&options, folder, &page, arena);
-    else
-        read_both(&options, &page, arena);
-    page.difference =
-        image_compare(page.side[0].image, page.side[1].image, options.fail, options.warn);
-    page.verdict = judge(&page.difference, &options);
-
-    print_figures(&page, &options);
-    if (folder) {
-        const char *path = arena_printf(arena, "%s/index.html", folder);
-        compare_page_write(&page, path);
-        printf("%s\n", path);
+    const char *folder = NULL;
+    bool good;
+    if (options.scene_count > 1) {
+        good = compare_scenes(&options, output_folder(&options, arena), arena);
+    } else {
+        options.input = options_input_path(&options, arena);
+        if (options.input && !file_exists(options.input))
+            die("cannot read '%s': no such file", options.input);
+        // Two pictures alone need no folder; a scene always does.
+        ComparePage *page = ARENA_NEW(arena, ComparePage);
+        if (options.output || options.input)
+            folder = output_folder(&options, arena);
+        Job job = {&options, options.input, folder, page, arena};
+        if (options.input)
+            compare_scene(&job);
+        else
+            compare_pictures(&options, page, arena);
+        print_figures(page, &options);
+        if (folder)
+            write_page(page, folder, arena);
+        good = strcmp(page->verdict, "FAILURE") != 0;
     }
-    bool failed = strcmp(page.verdict, "FAILURE") == 0;
     arena_destroy(arena);
-    return failed ? 1 : 0;
+    return good ? 0 : 1;
 }

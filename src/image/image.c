@@ -206,6 +206,20 @@ Image *image_difference(Arena *arena, const Image *a, const Image *b) {
     return out;
 }
 
+Image *image_cut(Arena *arena, const Image *image, int left, int top, int width, int height) {
+    Image *cut = ARENA_NEW(arena, Image);
+    *cut = *image;
+    cut->width = width < image->width - left ? width : image->width - left;
+    cut->height = height < image->height - top ? height : image->height - top;
+    size_t channels = (size_t)image->channels, row = (size_t)cut->width * channels;
+    cut->pixels = ARENA_ARRAY(arena, float, row *(size_t)cut->height);
+    for (int j = 0; j < cut->height; j++) {
+        size_t from = ((size_t)(top + j) * (size_t)image->width + (size_t)left) * channels;
+        memcpy(cut->pixels + (size_t)j * row, image->pixels + from, row * sizeof(float));
+    }
+    return cut;
+}
+
 ImageDifference image_compare(const Image *a, const Image *b, double fail, double warn) {
     require_same_size(a, b);
     Arena *scratch = arena_create();

@@ -64,11 +64,17 @@ typedef struct {
     uint64_t warned, failed; // pixels over the two limits
     uint64_t different;      // pixels off by more than one step of 8 bits in some channel
     uint64_t pixels;
+    // Pixels in which an eye would see it: Hector Yee's metric as OpenImageIO has it, values taken
+    // for sRGB (32 bits: for linear). -1: not known (grey pictures, pictures of a few pixels).
+    int64_t perceptible;
 } ImageDifference;
 // Sizes must be equal (dies if not). fail, warn: limits on the absolute difference. A grey picture
 // counts as three equal channels, a missing alpha as 1. A NaN in one picture only is a difference
 // of 1.
 ImageDifference image_compare(const Image *a, const Image *b, double fail, double warn);
+
+// The part from column left and row top; as much of it as there is.
+Image *image_cut(Arena *arena, const Image *image, int left, int top, int width, int height);
 
 // The largest difference over the channels of each pixel, as a picture of one channel.
 Image *image_difference(Arena *arena, const Image *a, const Image *b);

@@ -214,6 +214,33 @@ bool read_pixels(OiioReader *reader, int channels, float *pixels, char why[OIIO_
 
 void close_reader(OiioReader *reader) noexcept { delete reader; }
 
+// Yee's metric wants linear colours.
+OIIO::ImageBuf linear(const Image &image) {
+    OIIO::ImageBuf out(OIIO::ImageSpec(image.width, image.height, 3, OIIO::TypeFloat));
+    const size_t channels = static_cast<size_t>(image.channels);
+    const float *in = image.pixels;
+    for (int y = 0; y < image.height; y++)
+        for (int x = 0; x < image.width; x++, in += channels) {
+            float rgb[3];
+            for (int c = 0; c < 3; c++)
+                rgb[c] = image.bits == 32    ? in[c]
+                         : in[c] <= 0.04045f ? in[c] / 12.92f
+                                             : std::pow((in[c] + 0.055f) / 1.055f, 2.4f);
+            out.setpixel(x, y, rgb, 3);
+        }
+    return out;
+}
+
+// Its pyramid of filtered pictures needs some room.
+constexpr int least_for_yee = 32;
+
+int64_t perceptible(const Image &a, const Image &b) {
+    if (a.channels < 3 || a.width < least_for_yee || a.height < least_for_yee)
+        return -1;
+    OIIO::ImageBufAlgo::CompareResults found;
+    return OIIO::ImageBufAlgo::compare_Yee(linear(a), linear(b), found);
+}
+
 bool compare_images(const Image *a, const Image *b, double fail, double warn,
                     ImageDifference *result, char why[OIIO_WHY]) noexcept {
     try {
@@ -234,6 +261,7 @@ bool compare_images(const Image *a, const Image *b, double fail, double warn,
         result->max_channel = found.maxc;
         result->warned = found.nwarn;
         result->failed = found.nfail;
+        result->perceptible = found.maxerror > 0 ? perceptible(*a, *b) : a->channels < 3 ? -1 : 0;
         return true;
     } catch (const std::exception &failure) {
         explain(why, failure.what());

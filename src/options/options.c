@@ -40,6 +40,7 @@ RenderOptions options_default(void) {
         .final_frame = FRAME_NONE,
         .final_clock = 1.0,
         .pixel = {-1, -1},
+        .places = 10,
         .subset_start = -1,
         .subset_end = -1,
         .frame_step = 1,
@@ -100,6 +101,8 @@ bool option_name(Parse *parse, const char *word) {
     ImageFormat format;
     if (ends_in(word, ".pov") || ends_in(word, ".json")) {
         o->input = word;
+        if (parse->program == PROGRAM_QICOMPARE && !parse->loc.file)
+            o->scenes[o->scene_count++] = word;
         return true;
     }
     if (*word && word[strlen(word) - 1] == '/')
@@ -134,13 +137,14 @@ static bool is_ini_word(const char *word) {
 static void keep_word(Parse *parse, char **argv, int used) {
     RenderOptions *o = parse->options;
     const char *word = argv[0];
-    bool limit = strncmp(word, "--fail", 6) == 0 || strncmp(word, "--warn", 6) == 0;
+    bool judges = strncmp(word, "--fail", 6) == 0 || strncmp(word, "--warn", 6) == 0 ||
+                  strncmp(word, "--region", 8) == 0 || strncmp(word, "--places", 8) == 0;
     bool named = word[0] && strchr("+-", word[0]) && strchr("iIoO", word[1]) && word[1];
     bool input = strncasecmp(word, "Input_File_Name=", 16) == 0 ||
                  strncasecmp(word, "Output_File_Name=", 17) == 0;
     if ((is_povray_word(word) || is_ini_word(word)) && !named && !input) {
         o->shared[o->shared_count++] = word;
-    } else if (strncmp(word, "--", 2) == 0 && !limit && strncmp(word, "--output", 8) != 0) {
+    } else if (strncmp(word, "--", 2) == 0 && !judges && strncmp(word, "--output", 8) != 0) {
         for (int i = 0; i < used; i++)
             o->own[o->own_count++] = argv[i];
     }
@@ -179,6 +183,7 @@ bool options_parse(OptionsProgram program, int argc, char **argv, Arena *arena,
     Parse parse = {.program = program, .options = options, .arena = arena};
     options->shared = ARENA_ARRAY(arena, const char *, (size_t)argc + 1);
     options->own = ARENA_ARRAY(arena, const char *, (size_t)argc + 1);
+    options->scenes = ARENA_ARRAY(arena, const char *, (size_t)argc + 1);
     for (int i = 1, used; i < argc; i += used) {
         if (strcmp(argv[i], "--") == 0) {
             if (program != PROGRAM_QICOMPARE)

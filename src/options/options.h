@@ -94,6 +94,7 @@ typedef struct {
     const char *all_file;                    // one of all streams
     bool append_file;                        // to files that are there
     PatchMethod method;
+    int finer;        // --finer: facets cuts the patches so many times more
     double tolerance; // --tolerance, relative to the patch (PatchSetOptions)
     int pixel[2];     // --pixel: column and row from 0; -1: none
     unsigned aovs;    // --aov: bit 1 << AovKind each
@@ -105,6 +106,10 @@ typedef struct {
     // qicompare only.
     const char *pictures[2]; // bare names of pictures
     int picture_count;
+    const char **scenes; // bare names of scenes
+    size_t scene_count;
+    int region[4]; // --region: left, top, width, height in pixels; width 0: the whole picture
+    int places;    // how many of the worst places are looked into
     double fail, fail_percent, warn, warn_percent; // as OpenImageIO's idiff has them
     const char **shared;                           // the words that povray understands, as given
     size_t shared_count;

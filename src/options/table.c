@@ -258,6 +258,18 @@ static bool apply_method(Parse *parse, const OptionRow *row, bool on, const char
     return false;
 }
 
+static bool apply_region(Parse *parse, const OptionRow *row, bool on, const char *value) {
+    (void)row;
+    (void)on;
+    char rest;
+    int *r = parse->options->region, got[4];
+    if (sscanf(value, "%d,%d,%d,%d%c", &got[0], &got[1], &got[2], &got[3], &rest) != 4 ||
+        got[0] < 0 || got[1] < 0 || got[2] < 1 || got[3] < 1)
+        return complain(parse, "left,top,width,height in pixels, the first two counted from 0");
+    memcpy(r, got, sizeof got);
+    return true;
+}
+
 static bool apply_pixel(Parse *parse, const OptionRow *row, bool on, const char *value) {
     (void)row;
     (void)on;
@@ -412,6 +424,8 @@ const OptionRow option_rows[] = {
     {OPTION_SPECIAL, NULL, NULL, "method", "name", DRAWS, .apply = apply_method,
      .help = "how patches are met: qi (default), qi-paper, clipping, newton, facets (POV-Ray's "
              "triangles), tessellation (Embree's)"},
+    {OPTION_INT, NULL, NULL, "finer", "n", DRAWS, FIELD(finer), CLIP(0, 8),
+     .help = "facets: u_steps and v_steps n higher than the scene says, flatness a 4^n-th of it"},
     {OPTION_SPECIAL, NULL, NULL, "tolerance", "x", DRAWS, .apply = apply_tolerance,
      .help = "the largest error of a hit, as a share of its patch's diameter (1e-9)"},
     {OPTION_SPECIAL, NULL, NULL, "aov", "list", IN_QIRENDER, .apply = apply_aov,
@@ -429,6 +443,10 @@ const OptionRow option_rows[] = {
      .help = "likewise for a warning (1e-6)"},
     {OPTION_NUMBER, NULL, NULL, "warnpercent", "x", IN_QICOMPARE, FIELD(warn_percent), CLIP(0, 100),
      .help = "likewise for a warning (0)"},
+    {OPTION_SPECIAL, NULL, NULL, "region", "x,y,w,h", IN_QICOMPARE, .apply = apply_region,
+     .help = "compare only this part of the pictures"},
+    {OPTION_INT, NULL, NULL, "places", "n", IN_QICOMPARE, FIELD(places), CLIP(0, 100),
+     .help = "look into so many of the worst places (10): enlarged, told, and why they differ"},
 
     HEADING("The run"),
     {OPTION_INT, "WT", "Work_Threads", NULL, "n", IN_ALL, FIELD(threads), CLIP(0, 512),

@@ -55,6 +55,7 @@ typedef struct PatchSet PatchSet;
 
 typedef struct {
     PatchMethod method;
+    int finer;        // facets: steps are so many more, flatness is a 4^finer-th
     double tolerance; // |hit - S| <= tolerance x the patch's diameter; default 1e-9
 } PatchSetOptions;
 

@@ -13,6 +13,7 @@
 #include "patch/tessellation.h"
 
 #include <assert.h>
+#include <math.h>
 #include <string.h>
 
 // ORDER patch_method
@@ -77,6 +78,10 @@ void patchset_add(PatchSet *set, const PatchDef *def) {
     assert(def->degree_u >= 1 && def->degree_u <= 16 && def->degree_v >= 1 && def->degree_v <= 16);
     size_t count = (size_t)(def->degree_u + 1) * (def->degree_v + 1);
     PatchDef own = *def;
+    // A cut in half divides the distance of a triangle from the patch by four.
+    own.u_steps += set->options.finer;
+    own.v_steps += set->options.finer;
+    own.flatness = ldexp(own.flatness, -2 * set->options.finer);
     own.points = arena_copy(set->arena, def->points, count * sizeof(Vec3));
     for (size_t i = 0; i < count; i++) {
         assert(vec_is_finite(own.points[i]));

@@ -126,7 +126,8 @@ static uint64_t identity_of(const Scene *scene, const RenderOptions *o) {
                             o->block_size,      o->antialias,       o->antialias_threshold,
                             o->sampling_method, o->antialias_depth, o->jitter,
                             o->jitter_amount,   o->antialias_gamma, o->quality,
-                            o->alpha,           o->method,          o->tolerance};
+                            o->alpha,           o->method,          o->finer,
+                            o->tolerance};
     uint64_t hash = scene_hash(scene);
     const unsigned char *bytes = (const unsigned char *)facts;
     for (size_t i = 0; i < sizeof facts; i++)
@@ -214,6 +215,14 @@ static Image *develop(const Film *film, const Color *picture, const RenderOption
     return image;
 }
 
+static PatchSetOptions patch_options(const RenderOptions *o) {
+    PatchSetOptions patches = patchset_options_default();
+    patches.method = o->method;
+    patches.tolerance = o->tolerance;
+    patches.finer = o->finer;
+    return patches;
+}
+
 Image *render_scene(const Scene *scene, const RenderOptions *o, Arena *arena,
                     ImageWriteOptions *write, RenderStats *stats) {
     *stats = (RenderStats){.threads = o->threads > 0 ? o->threads : omp_get_num_procs()};
@@ -222,9 +231,7 @@ Image *render_scene(const Scene *scene, const RenderOptions *o, Arena *arena,
 
     // Prepare the world.
     double start = progress_seconds();
-    PatchSetOptions patches = patchset_options_default();
-    patches.method = o->method;
-    patches.tolerance = o->tolerance;
+    PatchSetOptions patches = patch_options(o);
     World *world = world_create(scene, &patches);
     const TraceOptions trace = {.quality = o->quality, .alpha = o->alpha};
     Shading *shading = shading_create(scene, world, &trace);
@@ -280,9 +287,7 @@ void render_pixel(const Scene *scene, const RenderOptions *o, FILE *out) {
     if (x >= o->width || y >= o->height)
         die("pixel %d,%d lies outside the picture: it has %d x %d, counted from 0", x, y, o->width,
             o->height);
-    PatchSetOptions patches = patchset_options_default();
-    patches.method = o->method;
-    patches.tolerance = o->tolerance;
+    PatchSetOptions patches = patch_options(o);
     World *world = world_create(scene, &patches);
     const TraceOptions trace = {.quality = o->quality, .alpha = o->alpha};
     Shading *shading = shading_create(scene, world, &trace);

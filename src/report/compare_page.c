@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // From the top: what was compared, the figures, the two pictures over each other, the map of the
-// differences with its scale, the worst place enlarged, times, commands.
+// differences with its scale, the worst places enlarged, with their causes, times, commands.
 #include "report/compare_page.h"
 
 #include "base/file.h"
@@ -91,10 +91,15 @@ static void put_figures(FILE *out, const ComparePage *page) {
     snprintf(value, sizeof value, "%.4g", 255.0 * d->max);
     if (d->max > 0)
         snprintf(note, sizeof note, "steps, %s at (%d, %d)",
-                 channel_name(page->side[0].image->channels, d->max_channel), d->max_x, d->max_y);
+                 channel_name(page->side[0].image->channels, d->max_channel), d->max_x + page->left,
+                 d->max_y + page->top);
     else
         snprintf(note, sizeof note, "steps of 8&nbsp;bits");
     put_figure(out, "Largest error", value, note);
+    if (d->perceptible >= 0) {
+        snprintf(value, sizeof value, "%lld", (long long)d->perceptible);
+        put_figure(out, "Seen by an eye", value, "pixels, by Yee&#8217;s perceptual metric");
+    }
     fputs("</dl>\n", out);
 }
 
@@ -183,27 +188,76 @@ static void put_map(FILE *out, const Image *differences, const Image *map, const
     put_counts(out, differences, scale);
 }
 
-static void put_worst(FILE *out, const ComparePage *page, const Image *map) {
+static void put_story(FILE *out, const char *of, const char *story) {
+    if (!story)
+        return;
+    fprintf(out, "<details><summary>How the pixel comes about, %s</summary><pre>", of);
+    html_text(out, story);
+    fputs("</pre></details>\n", out);
+}
+
+// The cause, and the figures that prove it.
+static void put_proof(FILE *out, const Place *place) {
+    if (place->cause == CAUSE_UNKNOWN)
+        return;
+    double step = 255.0;
+    fprintf(out, "<p>Cause: <b>%s</b>. ", place_cause_name(place->cause));
+    switch (place->cause) {
+    case CAUSE_GEOMETRY:
+        fprintf(out,
+                "With POV-Ray&#8217;s own triangles our picture is POV-Ray&#8217;s here (off by "
+                "%.3g). From those triangles ours is %.3g off, and %.3g when they are cut once "
+                "more",
+                step * place->facets, step * place->coarse, step * place->fine);
+        break;
+    case CAUSE_SAMPLING:
+        fprintf(out,
+                "Without anti-aliasing both renderers agree here (off by %.3g); with it even "
+                "POV-Ray&#8217;s own triangles are %.3g off",
+                step * place->plain, step * place->facets);
+        break;
+    default:
+        fprintf(out,
+                "With POV-Ray&#8217;s own triangles our picture is still %.3g off here, so the "
+                "patches&#8217; geometry is not the reason",
+                step * place->facets);
+    }
+    fputs(".</p>\n", out);
+}
+
+static void put_place(FILE *out, const ComparePage *page, int index, const Image *map) {
     Arena *scratch = arena_create();
-    const ImageDifference *d = &page->difference;
+    const Place *place = &page->places[index];
     int left = 0, top = 0;
-    const Image *cut[3];
     const Image *const whole[3] = {page->side[0].image, page->side[1].image, map};
     const char *const names[3] = {page->side[0].name, page->side[1].name, "difference"};
-    for (int i = 0; i < 3; i++)
-        cut[i] = heat_cut(scratch, whole[i], d->max_x, d->max_y, CUT, &left, &top);
-    fputs("<h2>The worst place</h2>\n<div class=\"trio\">\n", out);
-    for (int i = 0; i < 3; i++)
-        put_picture(out, cut[i], names[i], names[i]);
-    fprintf(out,
-            "</div>\n<p class=\"soft\"><small>%d &#215; %d pixels from (%d, %d), enlarged; "
-            "the largest difference is at (%d, %d).</small></p>\n",
-            cut[0]->width, cut[0]->height, left, top, d->max_x, d->max_y);
+    fprintf(out, "<h3>%d. Pixel (%d, %d): %.4g steps</h3>\n<div class=\"trio\">\n", index + 1,
+            place->x + page->left, place->y + page->top, 255.0 * place->difference);
+    for (int i = 0; i < 3; i++) {
+        const Image *cut = heat_cut(scratch, whole[i], place->x, place->y, CUT, &left, &top);
+        put_picture(out, cut, names[i], names[i]);
+    }
+    fputs("</div>\n", out);
+    put_proof(out, place);
+    put_story(out, "ours", place->story[0]);
+    put_story(out, "with POV-Ray&#8217;s triangles", place->story[1]);
     arena_destroy(scratch);
 }
 
+static void put_places(FILE *out, const ComparePage *page, const Image *map) {
+    if (page->place_count == 0)
+        return;
+    fprintf(out,
+            "<h2>The worst places</h2>\n<p class=\"soft\"><small>%d &#215; %d pixels around each, "
+            "enlarged; differences in steps of 8&nbsp;bits, the largest within %d "
+            "pixels.</small></p>\n",
+            CUT, CUT, PLACE_REACH);
+    for (int i = 0; i < page->place_count; i++)
+        put_place(out, page, i, map);
+}
+
 static void put_times(FILE *out, const ComparePage *page) {
-    if (page->side[0].seconds < 0 || page->side[1].seconds < 0)
+    if (page->side[0].run.seconds < 0 || page->side[1].run.seconds < 0)
         return;
     fputs(
         "<h2>Time</h2>\n<div class=\"scroll\"><table>\n<thead><tr><th></th><th scope=\"col\">User "
@@ -214,9 +268,9 @@ static void put_times(FILE *out, const ComparePage *page) {
         const CompareSide *side = &page->side[i];
         fputs("<tr><th scope=\"row\">", out);
         html_text(out, side->name);
-        fprintf(out, "</th><td>%.2f</td><td>%.2f</td>", side->seconds, side->elapsed);
-        if (page->side[0].seconds >= 0.005)
-            fprintf(out, "<td>%.3g</td></tr>\n", side->seconds / page->side[0].seconds);
+        fprintf(out, "</th><td>%.2f</td><td>%.2f</td>", side->run.seconds, side->run.elapsed);
+        if (page->side[0].run.seconds >= 0.005)
+            fprintf(out, "<td>%.3g</td></tr>\n", side->run.seconds / page->side[0].run.seconds);
         else
             fputs("<td>&#8211;</td></tr>\n", out);
     }
@@ -231,22 +285,22 @@ static void put_times(FILE *out, const ComparePage *page) {
 }
 
 static void put_commands(FILE *out, const ComparePage *page) {
-    if (!page->side[0].command || !page->side[1].command)
+    if (!page->side[0].run.command || !page->side[1].run.command)
         return;
     fputs("<h2>Commands</h2>\n", out);
     for (int i = 0; i < 2; i++) {
         fputs("<pre>", out);
-        html_text(out, page->side[i].command);
+        html_text(out, page->side[i].run.command);
         fputs("</pre>\n", out);
     }
     for (int i = 0; i < 2; i++) {
         const CompareSide *side = &page->side[i];
-        if (!side->log || !*side->log)
+        if (!side->run.log || !*side->run.log)
             continue;
         fputs("<details><summary>What ", out);
         html_text(out, side->name);
         fputs(" said</summary><pre>", out);
-        html_text(out, side->log);
+        html_text(out, side->run.log);
         fputs("</pre></details>\n", out);
     }
 }
@@ -262,8 +316,7 @@ void compare_page_write(const ComparePage *page, const char *path) {
     put_figures(out, page);
     put_stage(out, page);
     put_map(out, differences, map, scale);
-    if (page->difference.max > 0)
-        put_worst(out, page, map);
+    put_places(out, page, map);
     put_times(out, page);
     put_commands(out, page);
     fprintf(out,

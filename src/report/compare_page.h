@@ -5,13 +5,12 @@
 #define REPORT_COMPARE_PAGE_H
 
 #include "image/image.h"
+#include "report/places.h"
+#include "report/run.h"
 
 typedef struct {
-    const char *name;    // "POV-Ray", or the picture's file
-    const char *command; // the exact command line; NULL: it was only read
-    const char *log;     // what the program said; NULL: nothing
-    double seconds;      // of processor time in user mode; < 0: not known
-    double elapsed;      // on the wall
+    const char *name; // "POV-Ray", or the picture's file
+    Run run;          // command NULL: it was only read; seconds < 0: not known
     const Image *image;
 } CompareSide;
 
@@ -19,9 +18,12 @@ typedef struct {
     const char *title;   // the scene, or "a and b"
     const char *machine; // for the times; NULL: none
     CompareSide side[2]; // the first is the reference
+    int left, top;       // of the part that is compared
     ImageDifference difference;
     double fail, fail_percent;
     const char *verdict; // PASS, WARNING, FAILURE
+    int place_count;
+    Place places[PLACE_MOST];
 } ComparePage;
 
 // Writes the page whole or not at all; dies with a message if it cannot.

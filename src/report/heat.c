@@ -68,19 +68,11 @@ static int first_inside(int middle, int side, int size) {
 }
 
 Image *heat_cut(Arena *arena, const Image *image, int x, int y, int side, int *left, int *top) {
-    Image *cut = ARENA_NEW(arena, Image);
-    *cut = *image;
-    cut->width = side < image->width ? side : image->width;
-    cut->height = side < image->height ? side : image->height;
-    *left = first_inside(x, cut->width, image->width);
-    *top = first_inside(y, cut->height, image->height);
-    size_t channels = (size_t)image->channels, row = (size_t)cut->width * channels;
-    cut->pixels = ARENA_ARRAY(arena, float, row *(size_t)cut->height);
-    for (int j = 0; j < cut->height; j++) {
-        size_t from = ((size_t)(*top + j) * (size_t)image->width + (size_t)*left) * channels;
-        memcpy(cut->pixels + (size_t)j * row, image->pixels + from, row * sizeof(float));
-    }
-    return cut;
+    int width = side < image->width ? side : image->width,
+        height = side < image->height ? side : image->height;
+    *left = first_inside(x, width, image->width);
+    *top = first_inside(y, height, image->height);
+    return image_cut(arena, image, *left, *top, width, height);
 }
 
 Image *heat_shown(Arena *arena, const Image *image) {

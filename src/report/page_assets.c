@@ -55,6 +55,9 @@ const char page_style[] =
     "color:var(--soft)}.js .under{display:flex}.under input{flex:1;min-width:0;"
     "accent-color:var(--accent)}.under b{color:var(--ink);font-weight:600}.under b:empty,.under "
     "span:empty{display:none}\n"
+    "img.small{display:inline-block;width:6rem;vertical-align:middle;margin-right:.8rem}"
+    "td.said{white-space:pre-wrap;text-align:left;font-size:.85rem}a{color:var(--accent)}"
+    "h3{font-size:1rem;font-weight:600;margin:2rem 0 .6rem}\n"
     // The scale is also the table of counts.
     ".scroll{overflow-x:auto}table{border-collapse:collapse;font-variant-numeric:tabular-nums;"
     "width:100%}\n"

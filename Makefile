@@ -3,6 +3,7 @@
 #   make demo    install what is missing, render the teapot with QI and with POV-Ray, compare
 #   make test    install what is missing, build, run all tests (AddressSanitizer, UBSan)
 #   make test-examples  read every scene that POV-Ray's distribution has, as POV-Ray does
+#   make install  to PREFIX (/usr/local), below DESTDIR
 #   make gallery the pictures of README; make bench its table of speed; make deps lint clean
 MAKEFLAGS += --no-builtin-rules
 .DELETE_ON_ERROR:
@@ -112,6 +113,17 @@ test-examples: deps
 	@$(MAKE) --no-print-directory -j$$(nproc) build/pov2qi
 	@tests/examples.sh
 
+# PREFIX is where it will run, DESTDIR where it is put for now (packages).
+PREFIX ?= /usr/local
+INTO = $(DESTDIR)$(PREFIX)
+MANUALS = $(filter-out qibench,$(PROGRAMS))
+install: all
+	install -d $(INTO)/bin $(INTO)/lib $(INTO)/share/man/man1 $(INTO)/share/bash-completion/completions
+	install -m 755 $(PROGRAMS:%=build/%) $(INTO)/bin
+	install -m 644 build/$(IMAGE_LIB) $(INTO)/lib
+	for p in $(MANUALS); do build/$$p --man >$(INTO)/share/man/man1/$$p.1; \
+	    build/$$p --completion >$(INTO)/share/bash-completion/completions/$$p; done
+
 gallery: deps
 	@$(MAKE) --no-print-directory -j$$(nproc) all
 	@tests/gallery.sh
@@ -120,5 +132,5 @@ bench: deps
 	@$(MAKE) --no-print-directory -j$$(nproc) all
 	@tests/bench.sh
 
-.PHONY: all deps test test-examples lint demo gallery bench clean
+.PHONY: install all deps test test-examples lint demo gallery bench clean
 -include $(shell find build -name '*.d' 2>/dev/null)

@@ -4,7 +4,6 @@
 // room for the output, 2 wrong usage.
 #include "base/arena.h"
 #include "base/diag.h"
-#include "base/version.h"
 #include "converter/convert.h"
 #include "model/scene.h"
 #include "options/animation.h"
@@ -51,14 +50,8 @@ int main(int argc, char **argv) {
     options.verbose = false; // povray.ini speaks of rendering
     if (!options_parse(PROGRAM_POV2QI, argc, argv, arena, &options))
         return 2;
-    if (options.help) {
-        options_help(PROGRAM_POV2QI);
+    if (options_inform(PROGRAM_POV2QI, &options))
         return 0;
-    }
-    if (options.show_version) {
-        puts("pov2qi " QIPOV_VERSION);
-        return 0;
-    }
     if (!options.input) {
         fputs("pov2qi: error: no scene given (pov2qi scene.pov; pov2qi --help)\n", stderr);
         return 2;

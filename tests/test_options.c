@@ -121,7 +121,7 @@ static void switches_and_keywords_agree(void **state) {
         if (a.output)
             assert_string_equal(a.output, b.output);
         a.input = b.input = a.output = b.output = NULL;
-        a.shared = b.shared = a.own = b.own = NULL;
+        a.shared = b.shared = a.own = b.own = a.scenes = b.scenes = NULL;
         if (memcmp(&a, &b, sizeof a) != 0)
             fail_msg("%s | %s", pairs[i][0], pairs[i][1]);
     }

@@ -4,7 +4,6 @@
 // differ where they do (report/places.h). Several scenes give a page each and one over all of them.
 #include "base/diag.h"
 #include "base/file.h"
-#include "base/version.h"
 #include "options/animation.h"
 #include "options/options.h"
 #include "report/compare_page.h"
@@ -413,14 +412,8 @@ int main(int argc, char **argv) {
     options_read_povray_ini(PROGRAM_QICOMPARE, arena, &options);
     if (!options_parse(PROGRAM_QICOMPARE, argc, argv, arena, &options))
         return 2;
-    if (options.help) {
-        options_help(PROGRAM_QICOMPARE);
+    if (options_inform(PROGRAM_QICOMPARE, &options))
         return 0;
-    }
-    if (options.show_version) {
-        puts("qicompare " QIPOV_VERSION);
-        return 0;
-    }
     if (check_words(&options) != 0)
         return 2;
     const char *folder = NULL;

@@ -240,14 +240,8 @@ int main(int argc, char **argv) {
     options_read_povray_ini(PROGRAM_QIRENDER, arena, &options);
     if (!options_parse(PROGRAM_QIRENDER, argc, argv, arena, &options))
         return 2;
-    if (options.help) {
-        options_help(PROGRAM_QIRENDER);
+    if (options_inform(PROGRAM_QIRENDER, &options))
         return 0;
-    }
-    if (options.show_version) {
-        puts("qirender " QIPOV_VERSION);
-        return 0;
-    }
     diag_strict(options.strict);
     diag_verbose(options.verbose);
     options_report(&options);

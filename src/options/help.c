@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 // The text of --help, from the table: switch, INI form or word, and what it does, in two columns.
+#include "options/manual.h"
 #include "options/table.h"
+
+#include "base/version.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -47,7 +50,7 @@ static void print_row(const OptionRow *row) {
     print_wrapped(row->help);
 }
 
-void options_help(OptionsProgram program) {
+static void print_help(OptionsProgram program) {
     // ORDER program
     static const char *const usage[] = {
         "usage: qirender [switches] scene.pov | scene.qi.json\n"
@@ -79,4 +82,18 @@ void options_help(OptionsProgram program) {
            "keywords of these switches. Later words win. Exit status: 0 done, 1 wrong input%s,\n"
            "2 wrong usage or interrupted.\n",
            program == PROGRAM_QICOMPARE ? " or differences over the limits" : "");
+}
+
+bool options_inform(OptionsProgram program, const RenderOptions *options) {
+    if (options->help)
+        print_help(program);
+    else if (options->show_version)
+        printf("%s %s\n", option_program_name(program), QIPOV_VERSION);
+    else if (options->manual)
+        options_manual(program, stdout);
+    else if (options->completion)
+        options_completion(program, stdout);
+    else
+        return false;
+    return true;
 }

@@ -99,10 +99,10 @@ typedef struct {
     int pixel[2];     // --pixel: column and row from 0; -1: none
     unsigned aovs;    // --aov: bit 1 << AovKind each
     bool strict;
-    bool binary;         // pov2qi
-    bool check;          // pov2qi: read the scene, write nothing
-    bool requires, json; // pov2qi: list what the scene needs, write nothing
-    bool help, show_version;
+    bool binary;                                 // pov2qi
+    bool check;                                  // pov2qi: read the scene, write nothing
+    bool requires, json;                         // pov2qi: list what the scene needs, write nothing
+    bool help, show_version, manual, completion; // what options_inform prints
     // qicompare only.
     const char *pictures[2]; // bare names of pictures
     int picture_count;
@@ -147,8 +147,9 @@ void options_write_ini(const RenderOptions *options, const char *path);
 // called when the diagnostics know of --strict and -V: with the first a warning is an error.
 void options_report(const RenderOptions *options);
 
-// The text of --help for that program, on standard output.
-void options_help(OptionsProgram program);
+// Prints on standard output what was asked for instead of work (--help, --version, --man,
+// --completion). False: nothing was.
+bool options_inform(OptionsProgram program, const RenderOptions *options);
 
 // The scene that is meant: options->input, or with ".pov" added if only that is there. NULL if none
 // was given.

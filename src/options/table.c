@@ -467,6 +467,10 @@ const OptionRow option_rows[] = {
     {OPTION_FLAG, NULL, NULL, "help", NULL, IN_ALL, FIELD(help), .help = "this text"},
     {OPTION_FLAG, NULL, NULL, "version", NULL, IN_ALL, FIELD(show_version),
      .help = "the version of this program"},
+    {OPTION_FLAG, NULL, NULL, "man", NULL, IN_ALL, FIELD(manual),
+     .help = "the manual page, for man -l -"},
+    {OPTION_FLAG, NULL, NULL, "completion", NULL, IN_ALL, FIELD(completion),
+     .help = "a script that makes bash complete this program's words"},
 
     HEADING("Messages"),
     {OPTION_SPECIAL, "GA", NULL, NULL, "[name]", IN_ALL, FIELD(all_file), .apply = apply_console,

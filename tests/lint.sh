@@ -34,14 +34,16 @@ patch base patch
 kernel base patch kernel
 model base model
 options base image options patch
-converter base converter model options
-shape base model patch shape
-texture base image model texture
-render base image kernel model options patch render shape texture
+converter base converter function model noise options
+shape base function model patch shape
+noise base noise
+function base model noise function
+texture base function image model noise texture
+render base function image kernel model noise options patch render shape texture
 report base image model options render report
-bench base converter image model options patch kernel render bench
-cmd base bench converter image model options patch render report cmd
-tests base bench converter image kernel model options patch render report shape texture tests
+bench base converter function image model noise options patch kernel render bench
+cmd base bench converter function image model options patch render report cmd
+tests base bench converter function image kernel model noise options patch render report shape texture tests
 ROOMS
 xargs grep -HnE '^ *# *include +"' <"$work/all" | awk -v arrows="$work/arrows" '
     BEGIN {

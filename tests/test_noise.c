@@ -8,7 +8,7 @@
 #include <cmocka.h>
 
 #include "digits.h"
-#include "texture/noise.h"
+#include "noise/noise.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -10,7 +10,7 @@
 
 #include "base/array.h"
 #include "digits.h"
-#include "texture/noise.h"
+#include "noise/noise.h"
 #include "texture/pattern.h"
 #include "texture/pigment.h"
 #include "texture/texture.h"

@@ -3,7 +3,7 @@
 // rounded to float where POV-Ray rounds it.
 #include "render/shading.h"
 
-#include "texture/noise.h"
+#include "noise/noise.h"
 
 #include <math.h>
 

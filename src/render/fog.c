@@ -3,7 +3,7 @@
 // as lies between. Light that fogs add is not dimmed by the other fogs.
 #include "render/shading.h"
 
-#include "texture/noise.h"
+#include "noise/noise.h"
 
 #include <math.h>
 

@@ -4,6 +4,7 @@
 #include "render/shading.h"
 #include "render/story.h"
 
+#include "noise/noise.h"
 #include <math.h>
 #include <string.h>
 

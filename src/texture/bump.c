@@ -2,7 +2,7 @@
 // Patterns that bend a normal in ways of their own instead of by their height (facts: textures
 // 5.2). n is changed where it stands, in the pattern's space.
 #include "texture/formula.h"
-#include "texture/noise.h"
+#include "noise/noise.h"
 
 #include <math.h>
 

@@ -2,7 +2,7 @@
 // Crackle: the distances to the nearest of points strewn one a cell (facts: textures 2.2). The 81
 // cells looked at are those of the 5 x 5 x 5 block that could hold one of the three nearest.
 #include "texture/formula.h"
-#include "texture/noise.h"
+#include "noise/noise.h"
 
 #include <math.h>
 #include <stdlib.h>

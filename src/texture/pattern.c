@@ -5,7 +5,7 @@
 #include "texture/pattern.h"
 
 #include "texture/formula.h"
-#include "texture/noise.h"
+#include "noise/noise.h"
 #include "texture/warp.h"
 
 #include <assert.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Patterns of plain geometry (facts: textures 2).
 #include "texture/formula.h"
-#include "texture/noise.h"
+#include "noise/noise.h"
 
 #include <math.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Patterns made of noise (facts: textures 2, 3.5).
 #include "texture/formula.h"
-#include "texture/noise.h"
+#include "noise/noise.h"
 
 #include <math.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "texture/textures.h"
 
-#include "texture/noise.h"
+#include "noise/noise.h"
 
 Textures textures_make(const Scene *scene) {
     noise_prepare();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Patterns of tiles and cells (facts: textures 2, 2.1, 2.4). Most give the number of a colour.
 #include "texture/formula.h"
-#include "texture/noise.h"
+#include "noise/noise.h"
 
 #include <math.h>
 

@@ -2,7 +2,7 @@
 // One step of a pattern's chain of warps (facts: textures 1.6, 3.6).
 #include "texture/warp.h"
 
-#include "texture/noise.h"
+#include "noise/noise.h"
 
 #include <math.h>
 

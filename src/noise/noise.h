@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // POV-Ray's noise, bit for bit: scalar, vector, their turbulence, and its tables of random numbers.
 // Every function is pure once noise_prepare() has run.
-#ifndef TEXTURE_NOISE_H
-#define TEXTURE_NOISE_H
+#ifndef NOISE_NOISE_H
+#define NOISE_NOISE_H
 
 #include "base/vec.h"
 

@@ -2,7 +2,7 @@
 // Gradient noise on the integer lattice (facts: textures 3). None of the tables is stored: the hash
 // is a shuffle driven by a linear generator, the gradient table is made of checksums, Perlin's
 // tables come from the same linear generator, the random numbers from a Mersenne twister.
-#include "texture/noise.h"
+#include "noise/noise.h"
 
 #include <assert.h>
 #include <limits.h>

@@ -30,8 +30,8 @@
 
 typedef struct Converter Converter;
 typedef struct Symbol Symbol;
-typedef struct Function Function; // function.c
-typedef struct Frame Frame;       // cursor.c
+typedef struct UserFunction UserFunction; // function.c
+typedef struct Frame Frame;               // cursor.c
 
 // ---- source.c ---------------------------------------------------------------------------------
 
@@ -215,10 +215,14 @@ Value parse_value(Converter *cv);
 // ---- function.c -------------------------------------------------------------------------------
 
 // After the keyword `function`: [(parameters)] { body }.
-Function *parse_function(Converter *cv);
-// Dies where f was written if it needs what is not modelled (internal functions).
-double function_evaluate(const Function *f, const double *arguments);
-int function_parameter_count(const Function *f);
+UserFunction *parse_function(Converter *cv);
+// Into the components of e, whose number is returned. Dies where the function was written if it
+// needs what is not modelled, or runs too long.
+int user_function_evaluate(Converter *cv, const UserFunction *f, const double *arguments,
+                           double e[5]);
+uint32_t user_function_number(const UserFunction *f); // in the order of declaration
+int user_function_parameters(const Converter *cv, const UserFunction *f);
+int user_function_width(const Converter *cv, const UserFunction *f); // components of its value
 
 // ---- the statements: called by directive.c and convert.c --------------------------------------
 

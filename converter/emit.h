@@ -41,6 +41,8 @@ typedef struct {
     ARRAY(Light) lights;
     ARRAY(Pigment) pigments;
     ARRAY(Normal) normals;
+    ARRAY(Function) functions;
+    uint32_t *function_index; // emit_function.c
     ARRAY(Texture) textures;
     ARRAY(Interior) interiors;
     InternTable pigment_table, normal_table, texture_table;
@@ -81,5 +83,7 @@ uint32_t emit_pigment(Emitter *e, const PatternNode *pigment);
 // A missing normal (NULL) bends nothing. no_bump_scale: the texture around has it.
 uint32_t emit_normal(Emitter *e, const PatternNode *normal, bool no_bump_scale);
 uint32_t emit_texture(Emitter *e, const TextureNode *texture);
+// The function's number in scene->functions, for a pattern or a surface that uses it.
+uint32_t emit_function(Emitter *e, const UserFunction *function);
 
 #endif

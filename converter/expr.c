@@ -12,6 +12,7 @@
 // a literal is repeated into that many at once. A member access sets only e[0]; where it starts a
 // sum, the other components stay behind it, as in POV-Ray.
 #include "converter/language.h"
+#include "function/function.h"
 
 #include <math.h>
 #include <string.h>
@@ -67,9 +68,9 @@ static int fill(double e[5], double value, int want) {
 }
 
 // After the function's name: ( F [,] F ... )
-static int function_call(Converter *cv, const Function *f, double e[5], int want) {
-    double arguments[MAX_PARAMETERS];
-    int count = function_parameter_count(f);
+static int function_call(Converter *cv, const UserFunction *f, double e[5], int want) {
+    double arguments[FUNCTION_MAX_PARAMETERS];
+    int count = user_function_parameters(cv, f);
     expect(cv, '(', "function call");
     for (int i = 0; i < count; i++) {
         if (next_is(cv, ')')) {
@@ -80,10 +81,11 @@ static int function_call(Converter *cv, const Function *f, double e[5], int want
         optional_comma(cv);
     }
     expect(cv, ')', "function call");
-    int width = function_width(f);
+    double value[5] = {0};
+    int width = user_function_evaluate(cv, f, arguments, value);
     if (width == 1)
-        return fill(e, function_evaluate(f, arguments), want);
-    function_evaluate_vector(f, arguments, e);
+        return fill(e, value[0], want);
+    memcpy(e, value, sizeof *e * (size_t)width);
     return width;
 }
 
@@ -91,11 +93,12 @@ static int function_call(Converter *cv, const Function *f, double e[5], int want
 static int spline_call(Converter *cv, const Spline *s, double e[5]) {
     expect(cv, '(', "spline call");
     double at = parse_float(cv);
-    SplineKind kind = spline_kind(s);
+    SplineKind kind = s->kind;
     if (accept(cv, ',') && !accept_spline_kind(cv, &kind))
         die_expected(cv, "linear_spline, quadratic_spline, cubic_spline or natural_spline");
     expect(cv, ')', "spline call");
-    return spline_evaluate(s, kind, at, e);
+    spline_value(s, kind, at, e);
+    return s->width;
 }
 
 static int identifier(Converter *cv, double e[5], int want) {

@@ -1,194 +1,189 @@
 // SPDX-License-Identifier: MIT
-// Evaluates user functions: formulas as postfix programs on a stack of doubles, splines and
-// transforms by what they are. Pigments, patterns and the built-in internal functions have no value
-// here yet; needing one is an error at the function's body.
+// Declarations of user functions, and their values while the scene is read. All that is declared is
+// kept in one list, in the scene's own form, so that one machine runs them here and in the
+// renderer.
 #include "converter/function.h"
 
-// Instructions of one evaluation.
-#ifdef HOSTILE
-static const uint64_t MAX_STEPS = 1000000;
-#else
-static const uint64_t MAX_STEPS = 1000000000;
-#endif
+#include "converter/nodes.h"
+#include "noise/noise.h"
 
-int function_parameter_count(const Function *f) { return f->parameter_count; }
+#include <string.h>
 
-int function_width(const Function *f) {
-    double e[5];
-    switch (f->kind) {
-    case BODY_TRANSFORM:
-        return 3;
-    case BODY_SPLINE:
-        return spline_evaluate(f->spline, SPLINE_LINEAR, 0, e);
-    case BODY_PIGMENT:
-        return 5;
-    default:
-        return 1;
+// ---- the declaration --------------------------------------------------------------------------
+
+static bool is_axis(int code) {
+    return code == KW_x || code == KW_y || code == KW_z || code == KW_u || code == KW_v;
+}
+
+// [ ( NAME [,] ... ) ]: without a list x, y, z. True: there is a list.
+static bool parse_parameters(FunctionReader *r) {
+    Converter *cv = r->cv;
+    if (!accept(cv, '(')) {
+        static const int axes[3] = {KW_x, KW_y, KW_z};
+        memcpy(r->codes, axes, sizeof axes);
+        r->parameter_count = 3;
+        return false;
     }
-}
-
-typedef struct {
-    const Function *f;
-    const double *arguments;
-    double locals[MAX_LOCALS];
-    double *stack;
-    uint64_t *steps; // left for the whole evaluation
-} Machine;
-
-static size_t run(Machine *m, size_t from, size_t to, size_t top);
-
-static size_t run_series(Machine *m, size_t at, size_t top) {
-    const Instruction *in = &m->f->code.items[at];
-    double low = m->stack[top - 2], high = m->stack[top - 1], all = in->op == OP_SUM ? 0 : 1;
-    for (double i = low; i <= high; i++) {
-        m->locals[in->i] = i;
-        run(m, at + 1, at + 1 + in->length, top);
-        all = in->op == OP_SUM ? all + m->stack[top] : all * m->stack[top];
-    }
-    m->stack[top - 2] = all;
-    return top - 1;
-}
-
-static void evaluate_body(const Function *f, const double *arguments, uint64_t *steps, double e[5]);
-
-static size_t run_user(Machine *m, const Instruction *in, size_t top) {
-    size_t first = top - (size_t)in->user->parameter_count;
-    double e[5] = {0};
-    evaluate_body(in->user, m->stack + first, m->steps, e);
-    // Component -1 is the grey of a colour.
-    m->stack[first] = in->i < 0 ? 0.297 * e[0] + 0.589 * e[1] + 0.114 * e[2] : e[in->i];
-    return first + 1;
-}
-
-static double binary(Op op, double a, double b) {
-    switch (op) {
-    case OP_ADD:
-        return a + b;
-    case OP_SUBTRACT:
-        return a - b;
-    case OP_MULTIPLY:
-        return a * b;
-    case OP_DIVIDE:
-        return a / b;
-    case OP_EQUAL:
-        return a == b;
-    case OP_NOT_EQUAL:
-        return a != b;
-    case OP_LESS:
-        return a < b;
-    case OP_LESS_EQUAL:
-        return a <= b;
-    case OP_GREATER:
-        return a > b;
-    case OP_GREATER_EQUAL:
-        return a >= b;
-    case OP_AND:
-        return a != 0 && b != 0;
-    default:
-        return a != 0 || b != 0;
-    }
-}
-
-// Runs the instructions [from, to); the stack has `top` values. Returns its new height.
-static size_t run(Machine *m, size_t from, size_t to, size_t top) {
-    double *s = m->stack;
-    for (size_t at = from; at < to; at++) {
-        const Instruction *in = &m->f->code.items[at];
-        if (--*m->steps == 0)
-            die_at(&m->f->loc, "The evaluation of this function has run too long");
-        switch (in->op) {
-        case OP_CONSTANT:
-            s[top++] = in->value;
-            break;
-        case OP_ARGUMENT:
-            s[top++] = m->arguments[in->i];
-            break;
-        case OP_LOCAL:
-            s[top++] = m->locals[in->i];
-            break;
-        case OP_NEGATE:
-            s[top - 1] = -s[top - 1];
-            break;
-        case OP_CALL1:
-            s[top - 1] = in->one(s[top - 1]);
-            break;
-        case OP_CALL2:
-            top--;
-            s[top - 1] = in->two(s[top - 1], s[top]);
-            break;
-        case OP_SELECT3:
-            top -= 2;
-            s[top - 1] = s[top - 1] < 0 ? s[top] : s[top + 1];
-            break;
-        case OP_SELECT4:
-            top -= 3;
-            s[top - 1] = s[top - 1] < 0 ? s[top] : s[top - 1] > 0 ? s[top + 2] : s[top + 1];
-            break;
-        case OP_USER:
-            top = run_user(m, in, top);
-            break;
-        case OP_SUM:
-        case OP_PRODUCT:
-            top = run_series(m, at, top);
-            at += in->length;
-            break;
-        default:
-            top--;
-            s[top - 1] = binary(in->op, s[top - 1], s[top]);
+    do {
+        const Token *token = peek_token(cv);
+        bool fresh = token->code == TOK_IDENTIFIER && !ahead_place(cv);
+        if (!fresh && !is_axis(token->code)) {
+            Loc loc = token_loc(cv, token);
+            die_at(&loc,
+                   "Expected 'parameter identifier', %s found instead: a function's "
+                   "parameter must be a new name or one of x y z u v",
+                   token_describe(cv, token));
         }
-    }
-    return top;
+        if (r->parameter_count == FUNCTION_MAX_PARAMETERS)
+            die_expected(cv, "no more than 256 parameters");
+        next_token(cv);
+        r->codes[r->parameter_count] = token->code;
+        r->names[r->parameter_count++] = token->name;
+        optional_comma(cv);
+    } while (!accept(cv, ')'));
+    return true;
 }
 
-static double evaluate_formula(const Function *f, const double *arguments, uint64_t *steps) {
-    double small[64], *stack = small;
-    Arena *arena = NULL;
-    if (f->max_depth + 2 > (int)(sizeof small / sizeof *small)) {
-        arena = arena_create();
-        stack = ARENA_ARRAY(arena, double, (size_t)f->max_depth + 2);
+// internal ( F ): a formula of one step.
+static void parse_internal(FunctionReader *r, Function *out) {
+    Converter *cv = r->cv;
+    expect(cv, '(', "internal");
+    const Token *start = peek_token(cv);
+    double number = parse_float(cv);
+    int count = number >= 0 && number < FUNCTION_INTERNAL_COUNT
+                    ? function_internal_arguments((int)number)
+                    : 0;
+    if (count == 0) {
+        Loc loc = token_loc(cv, start);
+        die_at(&loc, "Function 'internal(%g)' does not exist", number);
     }
-    Machine m = {.f = f, .arguments = arguments, .stack = stack, .steps = steps};
-    run(&m, 0, f->code.count, 0);
-    double result = stack[0];
-    arena_destroy(arena);
-    return result;
+    expect(cv, ')', "internal");
+    *out = function_default(FUNCTION_FORMULA);
+    out->parameters = out->registers = out->stack = count;
+    out->steps = ARENA_ARRAY(cv->arena, FunctionStep, 2);
+    out->step_count = 2;
+    out->steps[0] = (FunctionStep){.op = FUNCTION_INTERNAL, .a = (int)number};
+    out->steps[1] = (FunctionStep){.op = FUNCTION_RETURN};
 }
 
-static void evaluate_body(const Function *f, const double *arguments, uint64_t *steps,
-                          double e[5]) {
-    switch (f->kind) {
-    case BODY_FORMULA:
-        e[0] = evaluate_formula(f, arguments, steps);
-        return;
-    case BODY_SPLINE:
-        spline_evaluate(f->spline, spline_kind(f->spline), arguments[0], e);
-        return;
-    case BODY_TRANSFORM: {
-        const Transform *t = f->value.node;
-        Vec3 p = transform_point(t, vec3(arguments[0], arguments[1], arguments[2]));
-        e[0] = p.x;
-        e[1] = p.y;
-        e[2] = p.z;
-        return;
-    }
-    case BODY_INTERNAL:
-        die_at(&f->loc,
-               "The value of the built-in function internal(%d) is needed to read this "
-               "scene, and is not modelled yet",
-               f->internal);
-    default:
-        die_at(&f->loc, "The value of this pigment or pattern is needed to read this scene, and is "
-                        "not modelled yet");
-    }
+// pigment { }, pattern { }: which of them it is is kept by number.
+static void parse_pigment_function(FunctionReader *r, FunctionType type, Function *out) {
+    Converter *cv = r->cv;
+    Language *l = cv->language;
+    Value value;
+    if (!parse_statement_value(cv, &value))
+        die_expected(cv, "a function's body");
+    *out = function_default(type);
+    out->stack = 3;
+    out->pigment = (uint32_t)l->function_pigments.count;
+    FunctionPigment pigment = {.node = value.node, .loc = r->loc};
+    list_push(cv, &l->function_pigments, pigment);
 }
 
-void function_evaluate_vector(const Function *f, const double *arguments, double e[5]) {
-    uint64_t steps = MAX_STEPS;
-    evaluate_body(f, arguments, &steps, e);
+// A body that is no formula; false: it is one.
+static bool parse_special(FunctionReader *r, bool listed, Function *out) {
+    Converter *cv = r->cv;
+    if (accept(cv, KW_internal)) {
+        parse_internal(r, out);
+        return true;
+    }
+    int code = peek_token(cv)->code;
+    if (code != KW_spline && code != KW_transform && code != KW_pigment && code != KW_pattern)
+        return false;
+    if (listed) {
+        Loc loc = here(cv);
+        die_at(&loc, "Function parameters for %s functions are not allowed", keyword_name(code));
+    }
+    if (code == KW_spline) {
+        next_token(cv);
+        *out = function_default(FUNCTION_SPLINE);
+        out->stack = 1;
+        out->spline = *parse_spline(cv);
+    } else if (code == KW_transform) {
+        next_token(cv);
+        *out = function_default(FUNCTION_TRANSFORM);
+        out->stack = 3;
+        out->transform = parse_transform(cv);
+    } else {
+        parse_pigment_function(r, code == KW_pigment ? FUNCTION_PIGMENT : FUNCTION_PATTERN, out);
+    }
+    return true;
 }
 
-double function_evaluate(const Function *f, const double *arguments) {
-    double e[5] = {0};
-    function_evaluate_vector(f, arguments, e);
-    return e[0];
+UserFunction *parse_function(Converter *cv) {
+    enter_level(cv);
+    bool held = release_directives(cv);
+    FunctionReader *r = ARENA_NEW(cv->arena, FunctionReader);
+    r->cv = cv;
+    bool listed = parse_parameters(r);
+    UserFunction *user = ARENA_NEW(cv->arena, UserFunction);
+    user->loc = r->loc = here(cv);
+    expect(cv, '{', "function");
+    accept(cv, TOK_STRING);
+    Function f;
+    if (!parse_special(r, listed, &f)) {
+        Expr *body = function_parse_body(r);
+        function_fold(cv, body);
+        user->calls = function_compile(r, body, &f);
+    }
+    expect(cv, '}', "function");
+    user->index = (uint32_t)cv->language->functions.count;
+    list_push(cv, &cv->language->functions, f);
+    restore_directives(cv, held);
+    leave_level(cv);
+    return user;
+}
+
+// ---- evaluation -------------------------------------------------------------------------------
+
+static const Function *code_of(const Converter *cv, const UserFunction *user) {
+    return &cv->language->functions.items[user->index];
+}
+
+uint32_t user_function_number(const UserFunction *user) { return user->index; }
+
+int user_function_parameters(const Converter *cv, const UserFunction *user) {
+    return code_of(cv, user)->parameters;
+}
+
+int user_function_width(const Converter *cv, const UserFunction *user) {
+    return function_width(code_of(cv, user));
+}
+
+_Noreturn static void die_pigment(const void *world, uint32_t pigment) {
+    const Converter *cv = world;
+    die_at(&cv->language->function_pigments.items[pigment].loc,
+           "The value of this pigment or pattern is needed to read this scene, and is not modelled "
+           "yet");
+}
+
+static void pigment_value(const void *world, uint32_t pigment, Vec3 p,
+                          double color[FUNCTION_WIDTH]) {
+    (void)p;
+    (void)color;
+    die_pigment(world, pigment);
+}
+
+static double pattern_value(const void *world, uint32_t pigment, Vec3 p) {
+    (void)p;
+    die_pigment(world, pigment);
+}
+
+FunctionPool function_pool(Converter *cv) {
+    static const FunctionHooks hooks = {pigment_value, pattern_value};
+    noise_prepare();
+    return (FunctionPool){.functions = cv->language->functions.items,
+                          .noise_generator = cv->noise_generator,
+                          .hooks = &hooks,
+                          .world = cv};
+}
+
+int user_function_evaluate(Converter *cv, const UserFunction *user, const double *arguments,
+                           double e[5]) {
+    const FunctionPool pool = function_pool(cv);
+    uint64_t budget = FUNCTION_BUDGET;
+    int width = function_vector(&pool, user->index, arguments, e, &budget);
+    if (budget == 0)
+        die_at(&user->loc, "The evaluation of this function has run too long");
+    return width;
 }

@@ -138,19 +138,9 @@ const char *string_for_output(Converter *cv, const char *s);
 
 // ---- spline.c ---------------------------------------------------------------------------------
 
-typedef enum { SPLINE_LINEAR, SPLINE_QUADRATIC, SPLINE_CUBIC, SPLINE_NATURAL } SplineKind;
-typedef struct Spline Spline;
 Spline *parse_spline(Converter *cv); // after the keyword `spline`: { ... }
 // The keyword of a kind, if it is next.
 bool accept_spline_kind(Converter *cv, SplineKind *kind);
-int spline_evaluate(const Spline *s, SplineKind kind, double at, double e[5]);
-SplineKind spline_kind(const Spline *s);
-
-// ---- function.c -------------------------------------------------------------------------------
-
-// How many components a call gives: 1, or more for transform, spline and pigment bodies.
-int function_width(const Function *f);
-void function_evaluate_vector(const Function *f, const double *arguments, double e[5]);
 
 // ---- cursor.c ---------------------------------------------------------------------------------
 
@@ -208,6 +198,12 @@ typedef struct {
     TokenList tokens;
 } TokenizedFile;
 
+// A pigment or pattern that a function asks.
+typedef struct {
+    const struct PatternNode *node;
+    Loc loc; // of the function's body
+} FunctionPigment;
+
 typedef struct Language {
     // cursor.c
     const Token *ahead; // read but not consumed, or NULL
@@ -226,7 +222,9 @@ typedef struct Language {
     LIST(const Source *) sources;
     LIST(TokenizedFile) files;
     LIST(const char *) library;
-    LIST(uint32_t) seeds; // states of the random streams
+    LIST(uint32_t) seeds;     // states of the random streams
+    LIST(Function) functions; // all that were ever declared: function.c
+    LIST(FunctionPigment) function_pigments;
     UserFile *written;
     size_t elements;     // of all arrays
     char debug_line[96]; // debug_text.c: of #debug, until its end comes

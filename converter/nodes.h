@@ -85,7 +85,7 @@ typedef struct {
 } PatternInfo;
 
 // A pigment, a normal, a density, or the pattern of a texture.
-typedef struct {
+typedef struct PatternNode {
     const PatternInfo *info;
     const Loc *loc; // of the keyword, if the pattern is not modelled
     Pattern shape;  // all but the type and the warps

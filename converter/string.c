@@ -230,24 +230,22 @@ static const char *parse_case(Converter *cv, const char *where, char low, char h
     return out;
 }
 
-// C's "%[0]L.Pf"; a number that needs more than 254 characters is written with %g.
-static const char *format_number(Converter *cv, double v, double length, double precision) {
-    int width = length >= 0 ? (int)fmin(length, 250) : (int)fmin(-length, 250);
-    char format[40], text[256];
-    char digits[16] = "";
+enum { MAX_NUMBER = 2048, MAX_DIGITS = 700 };
+
+// C's "%[0]L.P" and the letter; returns how long the text is.
+static int format_number(char text[MAX_NUMBER], double v, double length, double precision,
+                         const char *letter) {
+    int width = (int)fmin(fabs(length), MAX_DIGITS);
+    char format[40], digits[16] = "", minimum[16] = "";
     if (precision >= 0)
-        snprintf(digits, sizeof digits, ".%d", (int)fmin(precision, 250));
-    char minimum[16] = "";
+        snprintf(digits, sizeof digits, ".%d", (int)fmin(precision, MAX_DIGITS));
     if (width)
         snprintf(minimum, sizeof minimum, "%s%d", length < 0 ? "0" : "", width);
-    snprintf(format, sizeof format, "%%%s%sf", minimum, digits);
+    snprintf(format, sizeof format, "%%%s%s%s", minimum, digits, letter);
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wformat-nonliteral"
-    int needed = snprintf(text, sizeof text, format, v);
+    return snprintf(text, MAX_NUMBER, format, v);
 #pragma GCC diagnostic pop
-    if (needed >= (int)sizeof text)
-        snprintf(text, sizeof text, "%g", v);
-    return arena_strdup(cv->arena, text);
 }
 
 // str ( F , L , P )
@@ -259,7 +257,13 @@ static const char *parse_str(Converter *cv) {
     optional_comma(cv);
     double precision = trunc(parse_float(cv));
     expect(cv, ')', "str");
-    return format_number(cv, v, length, precision);
+    // What does not fit into POV-Ray's 254 characters is written with an exponent.
+    char text[MAX_NUMBER];
+    enum { ROOM = 255 };
+    if (format_number(text, v, length, precision, "f") >= ROOM &&
+        format_number(text, v, length, precision, "g") >= ROOM)
+        return "<invalid>";
+    return arena_strdup(cv->arena, text);
 }
 
 // vstr ( n , V , separator , L , P ): a float is not repeated
@@ -276,10 +280,12 @@ static const char *parse_vstr(Converter *cv) {
     optional_comma(cv);
     double precision = trunc(parse_float(cv));
     expect(cv, ')', "vstr");
-    const char *all = format_number(cv, e[0], length, precision);
-    for (int i = 1; i < count; i++)
-        all = arena_printf(cv->arena, "%s%s%s", all, separator,
-                           format_number(cv, e[i], length, precision));
+    const char *all = "";
+    for (int i = 0; i < count; i++) {
+        char text[MAX_NUMBER];
+        format_number(text, e[i], length, precision, "f");
+        all = arena_printf(cv->arena, "%s%s%s", all, i ? separator : "", text);
+    }
     check_length(cv, strlen(all));
     return all;
 }

@@ -15,8 +15,9 @@
 typedef struct {
     const char *name; // of one
     uint32_t count;
-    uint8_t *met; // per record: 0 not yet, 1 on the way down, 2 good
-    double *cost; // of the good ones
+    uint8_t *met;     // per record: 0 not yet, 1 on the way down, 2 good
+    double *cost;     // of the good ones
+    uint8_t *nesting; // how many functions lie inside one another in it
 } CheckPool;
 
 typedef struct {
@@ -24,8 +25,16 @@ typedef struct {
     const char *file;
     const uint32_t *positions;
     bool *met; // per object: already part of a tree
-    CheckPool pigments, normals, textures;
+    CheckPool pigments, normals, textures, functions;
+    uint8_t *calls; // per function: levels of calls
+    Arena *scratch;
 } Check;
+
+// The record has another with that nesting in it.
+static inline void check_nest(const CheckPool *pool, uint32_t index, uint8_t nesting) {
+    if (pool->nesting[index] < nesting)
+        pool->nesting[index] = nesting;
+}
 
 #define refuse(c, path, ...) path_die((c)->file, path, __VA_ARGS__)
 
@@ -48,6 +57,15 @@ void check_transform(const Check *c, const FieldPath *up, const char *name, cons
 
 // check_texture.c
 void check_texture_pools(const Check *c);
+void check_pigment(const Check *c, const FieldPath *path, uint32_t index, int depth);
 void check_turbulence(const Check *c, const FieldPath *path, const Turbulence *turbulence);
+
+// check_function.c: that the machine of src/function/ can run them: every register in range and
+// written before it is read, jumps that end, room for all calls.
+void check_functions(const Check *c);
+// For whoever holds the index of a function: dies unless there is one; returns how many functions
+// lie inside one another in its pigments, itself among them if it has one.
+uint8_t check_function_use(const Check *c, const FieldPath *path, uint32_t function, int depth);
+void check_function_uses(const Check *c); // of all
 
 #endif

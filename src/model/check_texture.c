@@ -188,7 +188,7 @@ static void check_entry_count(const Check *c, const FieldPath *path, PatternType
 
 static bool only_bends(PatternType type) { return type == PATTERN_BUMPS || type == PATTERN_FACETS; }
 
-static void check_pigment(const Check *c, const FieldPath *path, uint32_t index, int depth) {
+void check_pigment(const Check *c, const FieldPath *path, uint32_t index, int depth) {
     if (!enter_record(c, path, &c->pigments, index, depth))
         return;
     const Pigment *pigment = &c->scene->pigments[index];
@@ -213,6 +213,7 @@ static void check_pigment(const Check *c, const FieldPath *path, uint32_t index,
         if (entry->pigment != NO_INDEX) {
             check_pigment(c, &inner, entry->pigment, depth + 1);
             cost_add(&cost, c->pigments.cost[entry->pigment]);
+            check_nest(&c->pigments, index, c->pigments.nesting[entry->pigment]);
         }
     }
     if (kind == PATTERN_AVERAGE)

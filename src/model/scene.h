@@ -11,6 +11,7 @@
 #include "base/arena.h"
 #include "base/color.h"
 #include "base/vec.h"
+#include "model/function.h"
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -473,6 +474,8 @@ typedef struct {
     uint32_t pigment_count;
     Normal *normals;
     uint32_t normal_count;
+    Function *functions; // see src/function/function.h for how they are run
+    uint32_t function_count;
     Texture *textures;
     uint32_t texture_count;
     Interior *interiors;

@@ -324,6 +324,7 @@ static const Field SCENE_FIELDS[] = {
     RECORDS(Scene, lights, light_count, "lights", &LIGHT),
     RECORDS(Scene, pigments, pigment_count, "pigments", &PIGMENT_RECORD),
     RECORDS(Scene, normals, normal_count, "normals", &NORMAL_RECORD),
+    RECORDS(Scene, functions, function_count, "functions", &FUNCTION_RECORD),
     RECORDS(Scene, textures, texture_count, "textures", &TEXTURE_RECORD),
     RECORDS(Scene, interiors, interior_count, "interiors", &INTERIOR),
     END,

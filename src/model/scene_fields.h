@@ -59,6 +59,7 @@ struct Record {
     void (*set_kind_default)(void *out);
 };
 
+extern const Record FUNCTION_RECORD;          // function_fields.c
 extern const Record SCENE_RECORD;             // all of Scene but objects, roots, requires
 const Record *object_record(ObjectType type); // without type, points and children
 

@@ -305,7 +305,9 @@ static void check_scene(void *context) {
         const FieldPath path = path_item(NULL, "lights", i);
         check_light(c, &path, &scene->lights[i]);
     }
+    check_functions(c);
     check_texture_pools(c);
+    check_function_uses(c);
     for (uint32_t i = 0; i < scene->interior_count; i++) {
         const FieldPath path = path_item(NULL, "interiors", i);
         check_interior(c, &path, &scene->interiors[i]);
@@ -315,7 +317,7 @@ static void check_scene(void *context) {
 
 static CheckPool make_pool(Arena *scratch, const char *name, uint32_t count) {
     return (CheckPool){name, count, ARENA_ARRAY(scratch, uint8_t, count),
-                       ARENA_ARRAY(scratch, double, count)};
+                       ARENA_ARRAY(scratch, double, count), ARENA_ARRAY(scratch, uint8_t, count)};
 }
 
 void scene_validate_at(const Scene *scene, const char *file, const uint32_t *positions) {
@@ -325,6 +327,9 @@ void scene_validate_at(const Scene *scene, const char *file, const uint32_t *pos
     c.pigments = make_pool(scratch, "pigment", scene->pigment_count);
     c.normals = make_pool(scratch, "normal", scene->normal_count);
     c.textures = make_pool(scratch, "texture", scene->texture_count);
+    c.functions = make_pool(scratch, "function", scene->function_count);
+    c.calls = ARENA_ARRAY(scratch, uint8_t, scene->function_count);
+    c.scratch = scratch;
     char *message = NULL;
     bool good = diag_catch(check_scene, &c, &message);
     arena_destroy(scratch);

@@ -134,6 +134,7 @@ static void write_record(Writer *w, const Record *record, const void *at) {
         Layer layer;
         Texture texture;
         Interior interior;
+        Function function;
     } defaults; // room for any of them
     assert(record->size <= sizeof defaults);
     record->set_default(&defaults);

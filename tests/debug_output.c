@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: MIT
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+
+#include <cmocka.h>
+
+#include "debug_output.h"
+
+#include "base/arena.h"
+#include "base/console.h"
+#include "base/diag.h"
+#include "base/file.h"
+#include "converter/convert.h"
+
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+bool debug_has_povray(void) { return access("/usr/bin/povray", X_OK) == 0; }
+
+// The lines of a file that begin with '@', and the mark of a wrong program.
+static char *marked_lines(const char *path, const char *mark) {
+    Arena *arena = arena_create();
+    char *text = file_read(arena, path, NULL, NULL), *out = NULL;
+    size_t size = 0;
+    FILE *stream = open_memstream(&out, &size);
+    assert_non_null(stream);
+    for (char *line = text; line && *line;) {
+        char *end = strchr(line, '\n');
+        int length = end ? (int)(end - line) : (int)strlen(line);
+        // The sign of a NaN is the compiler's.
+        char *minus = *line == '@' ? strstr(line, "-nan") : NULL;
+        if (minus && (!end || minus < end))
+            fprintf(stream, "%.*s%.*s\n", (int)(minus - line), line,
+                    length - (int)(minus - line) - 1, minus + 1);
+        else if (*line == '@')
+            fprintf(stream, "%.*s\n", length, line);
+        line = end ? end + 1 : NULL;
+    }
+    fputs(mark, stream);
+    fclose(stream);
+    arena_destroy(arena);
+    return out;
+}
+
+static void side_path(char out[512], const char *path, const char *ending) {
+    snprintf(out, 512, "%s%s", path, ending);
+}
+
+char *debug_of_povray(const char *path) {
+    char out[512], command[1200];
+    side_path(out, path, ".povray");
+    snprintf(command, sizeof command, "povray +I%s +W1 +H1 -D -F >/dev/null 2>%s", path, out);
+    return marked_lines(out, system(command) == 0 ? "" : "!");
+}
+
+typedef struct {
+    RenderOptions options;
+    Arena *arena;
+} Job;
+
+static void convert(void *arg) {
+    Job *job = arg;
+    convert_scene(&job->options, job->arena);
+}
+
+char *debug_of_converter(const char *path) {
+    char out[512];
+    side_path(out, path, ".debug");
+    console_show(CONSOLE_DEBUG, false);
+    console_copy(CONSOLE_DEBUG, out, false);
+    diag_quiet(true);
+    Job job = {.options = {.width = 1, .height = 1}, .arena = arena_create()};
+    job.options.input = path;
+    char *message = NULL, *marked = NULL;
+    bool right = diag_catch(convert, &job, &message);
+    arena_destroy(job.arena);
+    console_copy(CONSOLE_DEBUG, "/dev/null", false);
+    char *text = marked_lines(out, right ? "" : "!");
+    if (right)
+        return text;
+    if (asprintf(&marked, "%s%s", text, message) < 0)
+        abort();
+    free(text);
+    free(message);
+    return marked;
+}
+
+// Prints the line of the program that made the output line `line`.
+static void print_origin(const char *path, const char *line) {
+    Arena *arena = arena_create();
+    char *text = file_read(arena, path, NULL, NULL), key[32];
+    snprintf(key, sizeof key, "\"%.*s ", (int)strcspn(line, " \n"), line);
+    char *at = text ? strstr(text, key) : NULL;
+    while (at && at > text && at[-1] != '\n')
+        at--;
+    if (at)
+        fprintf(stderr, "  made by: %.*s\n", (int)strcspn(at, "\n"), at);
+    arena_destroy(arena);
+}
+
+void assert_debug_equal(const char *path) {
+    char *want = debug_of_povray(path), *got = debug_of_converter(path);
+    const char *a = want, *b = got;
+    while (*a && *b) {
+        size_t n = strcspn(a, "\n") + 1, m = strcspn(b, "\n") + 1;
+        if (n != m || strncmp(a, b, n) != 0)
+            break;
+        a += n;
+        b += m;
+    }
+    if (strcmp(a, b) != 0 && !(*a == '!' && *b == '!')) {
+        fprintf(stderr, "%s:\n  povray: %.*s\n  we:     %.*s\n", path, (int)strcspn(a, "\n"), a,
+                (int)strcspn(b, "\n"), b);
+        print_origin(path, *a ? a : b);
+        fail();
+    }
+    free(want);
+    free(got);
+}

@@ -129,6 +129,7 @@ gallery: deps
 	@tests/gallery.sh
 
 bench: deps
+	@tests/deps.sh libembree-dev
 	@$(MAKE) --no-print-directory -j$$(nproc) all
 	@tests/bench.sh
 

@@ -1,27 +1,57 @@
 #!/bin/sh
-# Speed beside POV-Ray: user seconds of whole runs at 800x600 on one thread, in turn, median of N (3
-# unless given); and the share of pixels of the two pictures that differ by more than one step of 8 bits.
+# Writes the tables of speed into README.md, each between its two marks (<!-- NAME --> and
+# <!-- end of NAME -->). Arguments: rounds (an odd number, 5), then the tables, all unless named:
+# programs methods picture lattices threads.
+# programs: beside POV-Ray, user seconds of whole runs at 800x600 on one thread, in turn, median; and
+# the share of pixels of the two pictures that differ by more than one step of 8 bits.
 set -eu
 cd "$(dirname "$0")/.."
-runs=${1:-3} folder=$(mktemp -d) examples=/usr/share/doc/povray/examples
+rounds=${1:-5}
+[ $# -gt 0 ] && shift
+[ $# -gt 0 ] || set -- programs methods picture lattices threads
+folder=$(mktemp -d) examples=/usr/share/doc/povray/examples
 trap 'rm -rf "$folder"' EXIT
 
 # user_seconds COMMAND...: the processor time of the command in user mode.
 user_seconds() {
     bash -c 'TIMEFORMAT=%U; { time "$@" >/dev/null 2>&1 </dev/null; } 2>&1' time "$@"
 }
-median() { sort -n "$1" | sed -n "$(((runs + 1) / 2))p"; }
+median() { sort -n "$1" | sed -n "$(((rounds + 1) / 2))p"; }
 
-echo "| scene | POV-Ray, s | qirender, s | ratio | pixels that differ |"
-echo "|---|---|---|---|---|"
-for scene in $examples/objects/bezier.pov $examples/advanced/teapot/teapot.pov scenes/teapot-matte/teapot-matte.pov \
-    scenes/teapot-chrome/teapot-chrome.pov scenes/folds/folds.pov scenes/shells/shells.pov; do
-    rm -f "$folder"/*.txt
-    for _ in $(seq "$runs"); do
-        user_seconds povray "+I$scene" "+O$folder/a.png" "+L$(dirname "$scene")" +Lscenes/teapot +W800 +H600 -A -D +WT1 >>"$folder/a.txt"
-        user_seconds build/qirender "+I$scene" "+O$folder/b.png" "+L$(dirname "$scene")" +Lscenes/teapot +W800 +H600 -A -D +WT1 >>"$folder/b.txt"
+programs() {
+    echo "| scene | POV-Ray, s | qirender, s | ratio | pixels that differ |"
+    echo "|---|---|---|---|---|"
+    for scene in $examples/objects/bezier.pov $examples/advanced/teapot/teapot.pov scenes/teapot-matte/teapot-matte.pov \
+        scenes/teapot-chrome/teapot-chrome.pov scenes/folds/folds.pov scenes/shells/shells.pov \
+        ../shared/corpus/fmunoz/fruit_only.pov; do
+        [ -f "$scene" ] || continue
+        rm -f "$folder"/*.txt
+        for _ in $(seq "$rounds"); do
+            user_seconds povray "+I$scene" "+O$folder/a.png" "+L$(dirname "$scene")" +Lscenes/teapot +W800 +H600 -A -D +WT1 >>"$folder/a.txt"
+            user_seconds build/qirender "+I$scene" "+O$folder/b.png" "+L$(dirname "$scene")" +Lscenes/teapot +W800 +H600 -A -D +WT1 >>"$folder/b.txt"
+        done
+        differ=$(build/qicompare "$folder/a.png" "$folder/b.png" --fail 1 --warn 1 2>/dev/null | sed -n 's/.*(\(.*%\)) off by more than one step.*/\1/p')
+        echo "$(basename "$scene") $(median "$folder/a.txt") $(median "$folder/b.txt") $differ" |
+            awk '{printf "| %s | %s | %s | %.2f | %s |\n", $1, $2, $3, $2 / $3, $4}'
     done
-    differ=$(build/qicompare "$folder/a.png" "$folder/b.png" --fail 1 --warn 1 2>/dev/null | sed -n 's/.*(\(.*%\)) off by more than one step.*/\1/p')
-    echo "$(basename "$scene") $(median "$folder/a.txt") $(median "$folder/b.txt") $differ" |
-        awk '{printf "| %s | %s | %s | %.2f | %s |\n", $1, $2, $3, $2 / $3, $4}'
+}
+
+for table in "$@"; do
+    if [ "$table" = programs ]; then
+        programs >"$folder/table"
+    else
+        build/qibench speed "$table" --rounds "$rounds" >"$folder/table"
+    fi
+    cat "$folder/table"
+    grep -q "^<!-- $table -->" README.md || { echo "README.md has no place for $table" >&2; exit 1; }
+    awk -v name="$table" -v file="$folder/table" '
+        $0 == "<!-- end of " name " -->" { inside = 0 }
+        !inside { print }
+        $0 == "<!-- " name " -->" {
+            inside = 1
+            print ""
+            while ((getline line <file) > 0) print line
+            print ""
+        }' README.md >"$folder/README.md"
+    cp "$folder/README.md" README.md
 done

@@ -125,12 +125,16 @@ static void wrong_usage_is_refused(void **state) {
     } cases[] = {
         {"", "the first word says what to do"},
         {"trace", "no file given"},
-        {"trace a b", "one file at a time"},
+        {"trace a b", "what is 'b'?"},
         {"trace --method", "--method needs a value"},
         {"trace --method=best a", "there is no method 'best'; the methods are qi qi-paper"},
         {"trace --tolerance 2 a", "the tolerance is a share"},
         {"trace --threads -1 a", "--threads takes a number"},
-        {"trace --quick a", "there is no option '--quick'"},
+        {"trace --quick a", "there is no option '--quick' here"},
+        {"trace --rounds 3 a", "there is no option '--rounds' here"},
+        {"speed --rounds 4", "--rounds takes an odd number"},
+        {"speed --view top", "the views are full, zoom and scattered"},
+        {"speed fast", "the tables are methods, picture, lattices and threads"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         const char *log;
@@ -297,11 +301,33 @@ static void odd_rays_miss(void **state) {
     assert_true(strncmp(log, "miss\nmiss\nmiss\nmiss\n1.", 22) == 0);
 }
 
+// The tables have a row for each method and tolerance, with numbers in them.
+static void speed_prints_tables(void **state) {
+    (void)state;
+    FILE *teapot = fopen(EXAMPLES "advanced/teapot/teapot.inc", "r");
+    if (!teapot) {
+        printf("skipped: no teapot.inc (package povray-examples)\n");
+        skip();
+    }
+    fclose(teapot);
+    const char *log;
+    int status = run_command(&log, "build/qibench speed methods --rounds 1 --share 1e-3");
+    assert_int_equal(status, 0);
+    static const char *const rows[] = {"qi | 0.001", "qi | 1e-12", "clipping | 1e-06",
+                                       "newton | 1e-09", "qi-paper | 0.001"};
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        const char *at = strstr(log, rows[i]);
+        if (!at || strtod(at + strlen(rows[i]) + 3, NULL) <= 0.0)
+            fail_msg("no row '%s' with a number in\n%s", rows[i], log);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(numbers_are_exact),        cmocka_unit_test(wrong_files_are_refused),
         cmocka_unit_test(wrong_usage_is_refused),   cmocka_unit_test(answers_as_the_oracle),
         cmocka_unit_test(rays_leave_their_surface), cmocka_unit_test(odd_rays_miss),
+        cmocka_unit_test(speed_prints_tables),
     };
     return cmocka_run_group_tests_name("trace", tests, NULL, NULL);
 }

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
-// qibench: rays against patches, without pictures. `qibench trace` answers rays from a text file.
+// qibench: rays against patches, without pictures. `trace` answers rays from a text file, `speed`
+// measures.
 #include "base/diag.h"
 #include "base/version.h"
+#include "bench/speed.h"
 #include "bench/trace.h"
 
 #include <math.h>
@@ -12,24 +14,40 @@
 
 static const char usage[] =
     "usage: qibench trace [options] FILE\n"
-    "Rays against bicubic patches. FILE is text: `patches N`, then 16 lines `x y z` a patch;\n"
-    "`rays M`, then M lines `ox oy oz dx dy dz`. One line a ray: `t u v patch bound` of the "
-    "nearest\n"
-    "hit (t in lengths of the direction, patches counted from 0), or `miss`. A hit within its "
-    "bound\n"
-    "of the ray's origin is the surface that the ray leaves, and is not reported.\n"
+    "       qibench speed [options] methods | picture | lattices | threads ...\n"
+    "\n"
+    "trace: rays against bicubic patches. FILE is text: `patches N`, then 16 lines `x y z` a "
+    "patch;\n"
+    "`rays M`, then M lines `ox oy oz dx dy dz`. One line a ray: `t u v patch bound` of the\n"
+    "nearest hit (t in lengths of the direction, patches counted from 0), or `miss`. A hit within "
+    "its\n"
+    "bound of the ray's origin is the surface that the ray leaves, and is not reported.\n"
+    "speed: measures rays against the teapot of POV-Ray's examples, in turn with Embree's "
+    "triangles\n"
+    "where Embree is installed, and prints tables in Markdown.\n"
     "\n"
     "  --method name       qi (default), or another one of the list that a wrong name shows\n"
     "  --tolerance x       hits lie within x times the patch's diameter of the patch (1e-9)\n"
     "  --threads n         0 (default): as many as there are cores\n"
+    "  --rounds n          speed: the median of n rounds, odd (5)\n"
+    "  --share x           speed methods: this share of the rays (1)\n"
+    "  --view name         speed methods: full, zoom or scattered alone\n"
+    "  --patches n         speed lattices: up to n patches (1000000)\n"
     "  --help, --version\n"
     "\n"
     "Exit status: 0 done, 1 wrong input, 2 wrong usage.\n";
 
+// ORDER command
+typedef enum { COMMAND_TRACE, COMMAND_SPEED, COMMAND_COUNT } Command;
+static const char *const commands[COMMAND_COUNT] = {"trace", "speed"};
+enum { MAX_WORDS = 8 };
+
 typedef struct {
+    Command command;
     PatchSetOptions set;
-    int threads;
-    const char *file;
+    SpeedOptions speed;
+    int threads, word_count;
+    const char *words[MAX_WORDS];
 } Options;
 
 static void complain(const char *format, const char *word) {
@@ -39,8 +57,10 @@ static void complain(const char *format, const char *word) {
 }
 
 static bool apply_method(Options *o, const char *value) {
-    if (patch_method_parse(value, &o->set.method))
+    if (patch_method_parse(value, &o->set.method)) {
+        o->speed.method = (int)o->set.method;
         return true;
+    }
     char text[512];
     int at = snprintf(text, sizeof text, "there is no method '%.40s'; the methods are", value);
     for (int i = 0; i < METHOD_COUNT; i++)
@@ -52,54 +72,104 @@ static bool apply_method(Options *o, const char *value) {
 
 static bool apply_tolerance(Options *o, const char *value) {
     char *stop;
-    o->set.tolerance = strtod(value, &stop);
+    o->set.tolerance = o->speed.tolerance = strtod(value, &stop);
     if (stop != value && !*stop && o->set.tolerance >= 1e-15 && o->set.tolerance <= 1.0)
         return true;
     complain("the tolerance is a share of the patch's diameter, 1e-15 to 1, not '%s'", value);
     return false;
 }
 
-static bool apply_threads(Options *o, const char *value) {
+static bool whole_number(const char *value, long least, long most, long *number) {
     char *stop;
-    long threads = strtol(value, &stop, 10);
-    if (stop != value && !*stop && threads >= 0 && threads <= 512) {
-        o->threads = (int)threads;
-        return true;
+    *number = strtol(value, &stop, 10);
+    return stop != value && !*stop && *number >= least && *number <= most;
+}
+
+static bool apply_threads(Options *o, const char *value) {
+    long threads;
+    if (!whole_number(value, 0, 512, &threads)) {
+        complain("--threads takes a number from 0 to 512, not '%s'", value);
+        return false;
     }
-    complain("--threads takes a number from 0 to 512, not '%s'", value);
+    o->threads = (int)threads;
+    return true;
+}
+
+static bool apply_rounds(Options *o, const char *value) {
+    long rounds;
+    if (!whole_number(value, 1, 21, &rounds) || rounds % 2 == 0) {
+        complain("--rounds takes an odd number up to 21, not '%s'", value);
+        return false;
+    }
+    o->speed.rounds = (int)rounds;
+    return true;
+}
+
+static bool apply_share(Options *o, const char *value) {
+    char *stop;
+    o->speed.share = strtod(value, &stop);
+    if (stop != value && !*stop && o->speed.share >= 1e-4 && o->speed.share <= 1.0)
+        return true;
+    complain("--share takes a number from 1e-4 to 1, not '%s'", value);
     return false;
+}
+
+static bool apply_view(Options *o, const char *value) {
+    for (int view = 0; view < VIEW_COUNT; view++) {
+        if (strcmp(value, view_name((View)view)) == 0) {
+            o->speed.view = view;
+            return true;
+        }
+    }
+    complain("the views are full, zoom and scattered, not '%s'", value);
+    return false;
+}
+
+static bool apply_patches(Options *o, const char *value) {
+    long patches;
+    if (!whole_number(value, 32, 100000000, &patches)) {
+        complain("--patches takes a number from 32 on, not '%s'", value);
+        return false;
+    }
+    o->speed.max_patches = (size_t)patches;
+    return true;
 }
 
 // --word value or --word=value.
 static bool apply_option(Options *o, const char *word, const char *value) {
     static const struct {
         const char *name;
+        unsigned commands; // 1 << Command
         bool (*apply)(Options *o, const char *value);
-    } rows[] = {
-        {"--method", apply_method}, {"--tolerance", apply_tolerance}, {"--threads", apply_threads}};
+    } rows[] = {{"--method", 3, apply_method},   {"--tolerance", 3, apply_tolerance},
+                {"--threads", 1, apply_threads}, {"--rounds", 2, apply_rounds},
+                {"--share", 2, apply_share},     {"--view", 2, apply_view},
+                {"--patches", 2, apply_patches}};
     size_t length = strcspn(word, "=");
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         if (strlen(rows[i].name) != length || strncmp(word, rows[i].name, length) != 0)
             continue;
+        if (!(rows[i].commands & (1u << o->command)))
+            break;
         if (!value) {
             complain("%s needs a value", word);
             return false;
         }
         return rows[i].apply(o, value);
     }
-    complain("there is no option '%s'", word);
+    complain("there is no option '%s' here", word);
     return false;
 }
 
-static bool parse_trace(int argc, char **argv, Options *o) {
+static bool parse(int argc, char **argv, Options *o) {
     for (int i = 0; i < argc; i++) {
         const char *word = argv[i], *equals = strchr(word, '=');
         if (strncmp(word, "--", 2) != 0) {
-            if (o->file) {
-                complain("one file at a time: what is '%s'?", word);
+            if (o->word_count == (o->command == COMMAND_TRACE ? 1 : MAX_WORDS)) {
+                complain("what is '%s'?", word);
                 return false;
             }
-            o->file = word;
+            o->words[o->word_count++] = word;
         } else if (equals) {
             if (!apply_option(o, word, equals + 1))
                 return false;
@@ -109,34 +179,61 @@ static bool parse_trace(int argc, char **argv, Options *o) {
             i++;
         }
     }
-    if (!o->file)
-        complain("%s", "no file given");
-    return o->file != NULL;
+    return true;
 }
 
-static void trace(const Options *o) {
+static int trace(const Options *o) {
+    if (o->word_count == 0) {
+        complain("%s", "no file given");
+        return 2;
+    }
     Arena *arena = arena_create();
-    RayFile *file = ray_file_open(arena, o->file);
+    RayFile *file = ray_file_open(arena, o->words[0]);
     int threads = o->threads > 0 ? o->threads : omp_get_num_procs();
     omp_set_num_threads(threads);
-    PatchSet *set = patchset_create(&o->set);
-    const Vec3 *points = ray_file_points(file);
-    for (uint32_t i = 0; i < ray_file_patch_count(file); i++) {
-        // u_steps and v_steps are POV-Ray's largest useful ones; only facets look at them.
-        PatchDef def = {.degree_u = 3,
-                        .degree_v = 3,
-                        .points = points + (size_t)16 * i,
-                        .id = i,
-                        .mask = 1,
-                        .u_steps = 5,
-                        .v_steps = 5};
-        patchset_add(set, &def);
-    }
+    PatchSet *set = set_of_points(ray_file_points(file), ray_file_patch_count(file), o->set.method,
+                                  o->set.tolerance);
     patchset_commit(set);
     trace_rays(file, set, threads, stdout);
     patchset_destroy(set);
     ray_file_close(file);
     arena_destroy(arena);
+    return 0;
+}
+
+static int speed(const Options *o) {
+    static const struct {
+        const char *name;
+        void (*run)(const SpeedOptions *options);
+    } tables[] = {{"methods", speed_methods},
+                  {"picture", speed_picture},
+                  {"lattices", speed_lattices},
+                  {"threads", speed_threads}};
+    enum { TABLES = sizeof tables / sizeof tables[0] };
+    for (int i = 0; i < o->word_count; i++) {
+        int k = 0;
+        while (k < TABLES && strcmp(o->words[i], tables[k].name) != 0)
+            k++;
+        if (k == TABLES) {
+            complain("the tables are methods, picture, lattices and threads, not '%s'",
+                     o->words[i]);
+            return 2;
+        }
+    }
+    bool any = false;
+    for (int k = 0; k < TABLES; k++) {
+        bool wanted = o->word_count == 0;
+        for (int i = 0; i < o->word_count; i++)
+            wanted |= strcmp(o->words[i], tables[k].name) == 0;
+        if (!wanted)
+            continue;
+        if (any)
+            printf("\n");
+        any = true;
+        tables[k].run(&o->speed);
+        fflush(stdout);
+    }
+    return 0;
 }
 
 int main(int argc, char **argv) {
@@ -151,13 +248,14 @@ int main(int argc, char **argv) {
             return 0;
         }
     }
-    Options o = {.set = patchset_options_default()};
-    if (argc < 2 || strcmp(argv[1], "trace") != 0) {
-        complain("%s", "the first word says what to do: trace");
+    Options o = {.set = patchset_options_default(), .speed = speed_options_default()};
+    while (o.command < COMMAND_COUNT && (argc < 2 || strcmp(argv[1], commands[o.command]) != 0))
+        o.command++;
+    if (o.command == COMMAND_COUNT) {
+        complain("%s", "the first word says what to do: trace or speed");
         return 2;
     }
-    if (!parse_trace(argc - 2, argv + 2, &o))
+    if (!parse(argc - 2, argv + 2, &o))
         return 2;
-    trace(&o);
-    return 0;
+    return o.command == COMMAND_TRACE ? trace(&o) : speed(&o);
 }

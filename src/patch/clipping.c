@@ -6,8 +6,8 @@
 
 #include "patch/clip.h"
 
-// Sub-patches are cut until they are flat to this share of their size. Teapot, 1e-9: clipping whole
-// patches reaches half of the speed, finer than this costs memory for a few percent.
+// Sub-patches are cut until they are flat to this share of their size: of 0.03, 0.05, 0.1, 0.2 and
+// 0.4 the fastest on the teapot (`qibench speed methods`), by 5 to 15 %.
 static const double SHARE = 0.1;
 
 enum {

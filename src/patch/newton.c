@@ -8,8 +8,8 @@
 #include "patch/bernstein.h"
 #include "patch/clip.h"
 
-// Sub-patches are cut until they are flat to this share of their size: on the teapot the fewest
-// that let Newton settle in three steps nearly everywhere.
+// Sub-patches are cut until they are flat to this share of their size. From 0.03 to 0.2 the teapot
+// is traced equally fast, within 5 %; the finer, the fewer have two roots.
 static const double SHARE = 0.05;
 
 enum {

@@ -37,7 +37,7 @@ LIB_C    = $(filter-out $(MAINS),$(wildcard converter/*.c src/*/*.c))
 LIB_CXX  = src/image/image_oiio.cpp
 PROGRAMS = pov2qi $(patsubst src/cmd/%.c,%,$(wildcard src/cmd/*.c))
 TESTS    = $(patsubst tests/%.c,%,$(wildcard tests/test_*.c))
-TEST_LIB = $(filter-out $(wildcard tests/test_*.c),$(wildcard tests/*.c))
+TEST_LIB = $(filter-out $(wildcard tests/test_*.c tests/bench_*.c),$(wildcard tests/*.c))
 
 OBJ      = $(LIB_C:%.c=build/%.o)
 TEST_OBJ = $(LIB_C:%.c=build/test/%.o)
@@ -75,6 +75,12 @@ build/pov2qi: build/converter/main.o $(OBJ)
 build/qi%: build/src/cmd/qi%.o $(OBJ)
 	@echo '  LD  $@'
 	@$(CC) -fopenmp -o $@ $^ $(LIBS)
+
+# Rays a second beside Embree, where it is installed.
+EMBREE = $(if $(wildcard /usr/include/embree3/rtcore.h),-lembree3)
+build/bench_rays: tests/bench_rays.c $(OBJ)
+	@echo '  LD  $@'
+	@$(CC) $(C11) $(CFLAGS) $(if $(EMBREE),-DWITH_EMBREE) -o $@ $^ $(EMBREE) $(LIBS)
 
 # The programs under the sanitizers, for tests that run them; and the cmocka programs.
 build/test/pov2qi: build/test/converter/main.o $(TEST_OBJ) | build/test/$(IMAGE_LIB)
@@ -133,5 +139,8 @@ bench: deps
 	@$(MAKE) --no-print-directory -j$$(nproc) all
 	@tests/bench.sh
 
-.PHONY: install all deps test test-examples lint demo gallery bench clean
+bench-rays: build/bench_rays
+	@build/bench_rays
+
+.PHONY: install all deps test test-examples lint demo gallery bench bench-rays clean
 -include $(shell find build -name '*.d' 2>/dev/null)

@@ -32,20 +32,36 @@ LIBS   = -lpng -ljansson -lm
 # OpenImageIO is loaded when it is needed (src/image/oiio.h).
 IMAGE_LIBS = -lOpenImageIO -lOpenImageIO_Util
 
+# The kernel is compiled once per instruction set; nothing else has an -m flag.
+KERNEL      = src/kernel/kernel.c
+ISAS        = scalar $(if $(findstring x86_64,$(shell $(CC) -dumpmachine)),avx2 avx512)
+ISA_avx2    = -mavx2 -mbmi -mbmi2 -mlzcnt -mpopcnt
+ISA_avx512  = $(ISA_avx2) -mavx512f -mavx512vl -mavx512bw -mavx512dq
+KERNEL_OBJ  = $(ISAS:%=build/src/kernel/kernel_%.o)
+KERNEL_TEST = $(ISAS:%=build/test/src/kernel/kernel_%.o)
+
 MAINS    = converter/main.c $(wildcard src/cmd/*.c)
-LIB_C    = $(filter-out $(MAINS),$(wildcard converter/*.c src/*/*.c))
+LIB_C    = $(filter-out $(MAINS) $(KERNEL),$(wildcard converter/*.c src/*/*.c))
 LIB_CXX  = src/image/image_oiio.cpp
 PROGRAMS = pov2qi $(patsubst src/cmd/%.c,%,$(wildcard src/cmd/*.c))
 TESTS    = $(patsubst tests/%.c,%,$(wildcard tests/test_*.c))
 TEST_LIB = $(filter-out $(wildcard tests/test_*.c tests/bench_*.c),$(wildcard tests/*.c))
 
-OBJ      = $(LIB_C:%.c=build/%.o)
-TEST_OBJ = $(LIB_C:%.c=build/test/%.o)
+OBJ      = $(LIB_C:%.c=build/%.o) $(KERNEL_OBJ)
+TEST_OBJ = $(LIB_C:%.c=build/test/%.o) $(KERNEL_TEST)
 IMAGE_LIB = libqipov_image.so
 SHARED   = build/test/libtests.a
 
 all: $(PROGRAMS:%=build/%) build/$(IMAGE_LIB)
 
+$(KERNEL_OBJ): build/src/kernel/kernel_%.o: $(KERNEL)
+	@mkdir -p $(@D)
+	@echo '  CC  $< ($*)'
+	@$(CC) $(C11) $(CFLAGS) $(ISA_$*) -Wno-psabi -DKERNEL_ISA=$* -c -o $@ $<
+$(KERNEL_TEST): build/test/src/kernel/kernel_%.o: $(KERNEL)
+	@mkdir -p $(@D)
+	@echo '  CC  $< ($*, sanitized)'
+	@$(CC) $(C11) $(SAN) $(ISA_$*) -Wno-psabi -DKERNEL_ISA=$* -c -o $@ $<
 build/%.o: %.c
 	@mkdir -p $(@D)
 	@echo '  CC  $<'

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // How many rays a second: METHOD_QI beside Embree's triangles on the teapot of POV-Ray's examples,
-// in turn within one run, one thread, user time. `make bench-rays`; arguments: rounds [threads].
+// in turn within one run, one thread, user time. `make bench-rays`; arguments: rounds [threads
+// [view [method]]].
 //
 // Three views: full and zoom are 1024x1024 cameras at (0,-10,1.5) along y with their windows on
 // y = 0, in tiles of 4x4; scattered rays go at random through the bounding sphere.
@@ -234,7 +235,7 @@ static void run(Entry *entry, const View *view, int round, int threads) {
 int main(int argc, char **argv) {
     int rounds = argc > 1 ? atoi(argv[1]) : 5, threads = argc > 2 ? atoi(argv[2]) : 1;
     rounds = rounds < 1 ? 1 : rounds > MAX_ROUNDS ? MAX_ROUNDS : rounds;
-    const char *only = argc > 3 ? argv[3] : NULL;
+    const char *only = argc > 3 ? argv[3] : NULL, *method = argc > 4 ? argv[4] : NULL;
     if (!load_teapot()) {
         fprintf(stderr, "the teapot of povray-examples is missing\n");
         return 1;
@@ -276,7 +277,8 @@ int main(int argc, char **argv) {
             continue;
         for (int round = 0; round < rounds; round++)
             for (int e = 0; e < count; e++)
-                run(&entries[e], &views[i], round, threads);
+                if (!method || strcmp(method, entries[e].name) == 0)
+                    run(&entries[e], &views[i], round, threads);
         printf("%-9s", views[i].name);
         for (int e = 0; e < count; e++) {
             qsort(entries[e].mrays, (size_t)rounds, sizeof(double), by_value);

@@ -28,6 +28,7 @@ static const char usage[] =
     "\n"
     "  --method name       qi (default), or another one of the list that a wrong name shows\n"
     "  --tolerance x       hits lie within x times the patch's diameter of the patch (1e-9)\n"
+    "  --isa name          scalar, avx2 or avx512 for qi: the best there is, unless given\n"
     "  --threads n         0 (default): as many as there are cores\n"
     "  --rounds n          speed: the median of n rounds, odd (5)\n"
     "  --share x           speed methods: this share of the rays (1)\n"
@@ -135,16 +136,24 @@ static bool apply_patches(Options *o, const char *value) {
     return true;
 }
 
+static bool apply_isa(Options *o, const char *value) {
+    (void)o;
+    if (patch_isa_choose(value) == PATCH_ISA_CHOSEN)
+        return true;
+    complain("--isa takes scalar, avx2 or avx512, one that this machine has, not '%s'", value);
+    return false;
+}
+
 // --word value or --word=value.
 static bool apply_option(Options *o, const char *word, const char *value) {
     static const struct {
         const char *name;
         unsigned commands; // 1 << Command
         bool (*apply)(Options *o, const char *value);
-    } rows[] = {{"--method", 3, apply_method},   {"--tolerance", 3, apply_tolerance},
-                {"--threads", 1, apply_threads}, {"--rounds", 2, apply_rounds},
-                {"--share", 2, apply_share},     {"--view", 2, apply_view},
-                {"--patches", 2, apply_patches}};
+    } rows[] = {{"--method", 3, apply_method}, {"--tolerance", 3, apply_tolerance},
+                {"--isa", 3, apply_isa},       {"--threads", 1, apply_threads},
+                {"--rounds", 2, apply_rounds}, {"--share", 2, apply_share},
+                {"--view", 2, apply_view},     {"--patches", 2, apply_patches}};
     size_t length = strcspn(word, "=");
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         if (strlen(rows[i].name) != length || strncmp(word, rows[i].name, length) != 0)

@@ -311,6 +311,20 @@ static bool apply_tolerance(Parse *parse, const OptionRow *row, bool on, const c
     return true;
 }
 
+// Takes effect at once: all that trace in this program use it.
+static bool apply_isa(Parse *parse, const OptionRow *row, bool on, const char *value) {
+    (void)row, (void)on;
+    switch (patch_isa_choose(value)) {
+    case PATCH_ISA_CHOSEN:
+        return true;
+    case PATCH_ISA_UNUSABLE:
+        return complain(parse, "this machine does not have it");
+    case PATCH_ISA_UNKNOWN:
+        break;
+    }
+    return complain(parse, "the instruction sets are scalar, avx2, avx512");
+}
+
 // ---- the table
 // ------------------------------------------------------------------------------------
 
@@ -433,6 +447,8 @@ const OptionRow option_rows[] = {
              "steps,bound,object"},
     {OPTION_SPECIAL, NULL, NULL, "pixel", "x,y", IN_QIRENDER, .apply = apply_pixel,
      .help = "instead of a picture, print how this pixel comes about: rays, hits, nets, lights"},
+    {OPTION_SPECIAL, NULL, NULL, "isa", "name", DRAWS, .apply = apply_isa,
+     .help = "instruction set for qi: scalar, avx2, avx512 (the best there is; same pictures)"},
 
     HEADING("Comparing"),
     {OPTION_NUMBER, NULL, NULL, "fail", "x", IN_QICOMPARE, FIELD(fail), CLIP(0, 1e9),

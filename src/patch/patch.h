@@ -27,6 +27,13 @@ typedef enum {
 const char *patch_method_name(PatchMethod method);
 bool patch_method_parse(const char *name, PatchMethod *method); // false: no such method
 
+// METHOD_QI is compiled for several instruction sets: scalar, avx2, avx512. They give the same
+// bits. The best that this machine can run is used unless another is chosen here, before any thread
+// traces. name NULL: the best.
+typedef enum { PATCH_ISA_CHOSEN, PATCH_ISA_UNKNOWN, PATCH_ISA_UNUSABLE } PatchIsa;
+PatchIsa patch_isa_choose(const char *name);
+const char *patch_isa_name(void); // of the one in use
+
 typedef struct {
     uint32_t degree_u, degree_v; // 1..16
     const Vec3 *points;          // (degree_u + 1) * (degree_v + 1), row by row; copied

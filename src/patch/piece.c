@@ -13,6 +13,8 @@
 // 4 % trace equally fast, 1 % takes four times the memory for nothing, and at 6 % rays at
 // silhouettes that qi_reduce must settle, 0.2 % of all before, begin to tell.
 static const double SHARE = 0.03;
+// And until its parameters run as evenly as this (the whole being 2).
+static const double EVEN = 0.5;
 
 enum {
     MAX_DEPTH = 20,         // halvings, u and v together
@@ -22,8 +24,8 @@ enum {
 
 typedef struct {
     Piece piece;
-    Vec3 c, eu, ev, rho; // about the patch's center, scene units
-    Box box;             // the same
+    PieceFrame frame;
+    Box box; // about the patch's center, scene units
 } Cut;
 
 typedef struct {
@@ -145,26 +147,6 @@ static Bends bends_of(const Bezier *s) {
 // for each midpoint on the way. That is less than 7 bezier_rounding(); one more is for the QI net.
 static double net_rounding(const Cutter *k) { return 8.0 * k->rounding; }
 
-// The affine part of the net and the box of the rest.
-static void measure(const Cutter *k, const Bezier *s, const Bezier *net, Cut *out) {
-    int du = s->du, dv = s->dv;
-    Vec3 a = bezier_at(net, 0, 0), b = bezier_at(net, 0, dv);
-    Vec3 c = bezier_at(net, du, 0), d = bezier_at(net, du, dv);
-    out->eu = vec_scale(vec_add(vec_sub(c, a), vec_sub(d, b)), 0.5);
-    out->ev = vec_scale(vec_add(vec_sub(b, a), vec_sub(d, c)), 0.5);
-    Box rest = box_empty();
-    for (int i = 0; i <= du; i++) {
-        Vec3 along = vec_scale(out->eu, (double)i / du), step = vec_scale(out->ev, 1.0 / dv);
-        for (int j = 0; j <= dv; j++)
-            rest = box_extend(rest, vec_sub(bezier_at(net, i, j), vec_madd(along, j, step)));
-    }
-    out->c = vec_scale(vec_add(rest.low, rest.high), 0.5);
-    double error = net_rounding(k) + 2.0 * k->rounding; // of the affine part
-    Vec3 slack = vec3(error, error, error);
-    out->rho = vec_add(vec_scale(vec_sub(rest.high, rest.low), 0.5),
-                       vec_add(quasi_deviation_axes(s), slack));
-}
-
 // Upwards, with room for the rounding of differences of points that are off by `error`, and for
 // PIECE_MARGIN = m: outside of [0,1] by m the Bernstein weights' absolute values sum up to
 // (1 + 2 m)^n, for 16 twice that is below 1 + 2^-13.
@@ -173,44 +155,51 @@ static float bound_up(double bound, double error) {
     return up < (double)FLT_MAX ? (float)up : INFINITY;
 }
 
-// What float cannot hold is left out: it only makes a guess better.
-static float to_float(double x) { return fabs(x) < (double)FLT_MAX ? (float)x : 0.0f; }
+// The piece's box about the patch's center: of the control points, and of the net with the QI
+// bound.
+static Box piece_box(const Cutter *k, const Bezier *s) {
+    double error = net_rounding(k);
+    Bezier net;
+    quasi_net(s, &net);
+    Vec3 slack = vec3(error, error, error), e = vec_add(quasi_deviation_axes(s), slack);
+    Box hull = bezier_bounds(s), thick = bezier_bounds(&net);
+    return (Box){vec_max(vec_sub(hull.low, slack), vec_sub(thick.low, e)),
+                 vec_min(vec_add(hull.high, slack), vec_add(thick.high, e))};
+}
 
 // The rest of what is to be known of a piece.
-static void complete(const Cutter *k, const Bezier *s, const Bezier *net, BezierRect rect,
-                     Cut *out) {
-    double error = net_rounding(k);
-    Vec3 slack = vec3(error, error, error), e = vec_add(quasi_deviation_axes(s), slack);
-    Box hull = bezier_bounds(s), thick = bezier_bounds(net);
-    out->box.low = vec_max(vec_sub(hull.low, slack), vec_sub(thick.low, e));
-    out->box.high = vec_min(vec_add(hull.high, slack), vec_add(thick.high, e));
+static void complete(const Cutter *k, const Bezier *s, BezierRect rect, Cut *out) {
+    double error = 8.0 * net_rounding(k); // four points, in length
     int du = s->du, dv = s->dv;
     double width = rect.u1 - rect.u0, height = rect.v1 - rect.v0;
     double uu = 1.0 / (width * width), uv = 1.0 / (width * height), vv = 1.0 / (height * height);
     Bends bends = bends_of(s);
-    error *= 8.0; // four points, in length
-    out->piece = (Piece){.rect = rect,
-                         .muu = bound_up(bends.uu * uu, error * du * du * uu),
-                         .muv = bound_up(bends.uv * uv, error * du * dv * uv),
-                         .mvv = bound_up(bends.vv * vv, error * dv * dv * vv),
-                         .patch = k->number};
-    BezierJet jet;
-    bezier_eval2(s, 0.5, 0.5, &jet);
-    for (int axis = 0; axis < 3; axis++) {
-        out->piece.suu[axis] = to_float(vec_get(jet.suu, axis) * uu);
-        out->piece.suv[axis] = to_float(vec_get(jet.suv, axis) * uv);
-        out->piece.svv[axis] = to_float(vec_get(jet.svv, axis) * vv);
-    }
+    out->box = piece_box(k, s);
+    out->piece.rect = rect;
+    out->piece.muu = bound_up(bends.uu * uu, error * du * du * uu);
+    out->piece.muv = bound_up(bends.uv * uv, error * du * dv * uv);
+    out->piece.mvv = bound_up(bends.vv * vv, error * dv * dv * vv);
+    out->piece.patch = k->number;
+    out->piece.mask = k->patch->def->mask;
+}
+
+// Length of a mean of opposite sides.
+static double mean_side(const Bezier *s, bool along_u) {
+    Vec3 a = bezier_at(s, 0, 0), b = bezier_at(s, 0, s->dv);
+    Vec3 c = bezier_at(s, s->du, 0), d = bezier_at(s, s->du, s->dv);
+    Vec3 sum =
+        along_u ? vec_add(vec_sub(c, a), vec_sub(d, b)) : vec_add(vec_sub(b, a), vec_sub(d, c));
+    return 0.5 * vec_length(sum);
 }
 
 // Is a cut across u (rather than v) what makes the piece flatter? A second derivative D has the
 // sag D / 8; a twist gives way to either cut, then the longer side is taken.
-static bool cut_across_u(const Bezier *s, const Cut *cut) {
+static bool cut_across_u(const Bezier *s) {
     Bends bends = bends_of(s);
     Vec3 twist = vec_sub(vec_sub(bezier_at(s, s->du, s->dv), bezier_at(s, s->du, 0)),
                          vec_sub(bezier_at(s, 0, s->dv), bezier_at(s, 0, 0)));
     if (2.0 * vec_length(twist) > fmax(bends.uu, bends.vv))
-        return vec_length(cut->eu) > vec_length(cut->ev);
+        return mean_side(s, true) > mean_side(s, false);
     return bends.uu > bends.vv;
 }
 
@@ -241,22 +230,23 @@ static void halve(const Bezier *s, bool across_u, Bezier *low, Bezier *high) {
 }
 
 static void cut_rect(Cutter *k, const Bezier *s, BezierRect rect, int depth) {
-    Bezier net;
-    quasi_net(s, &net);
     Cut cut;
-    measure(k, s, &net, &cut);
+    frame_make(s, net_rounding(k), &cut.frame, &cut.piece);
     // Size is not taken below a sixteenth of the patch's: near a collapsed edge pieces stay wide
     // for their length however often they are cut.
-    double size = fmax(fmax(vec_length(cut.eu), vec_length(cut.ev)), k->size / 16.0);
-    // Thickness of rounding alone, 10 sqrt(3) of it, does not go away.
-    bool enough = vec_length(cut.rho) <= fmax(k->share * size, 20.0 * k->rounding);
+    double size = fmax(fmax(mean_side(s, true), mean_side(s, false)), k->size / 16.0);
+    // Thickness of rounding alone does not go away. A flat piece may still be bent in its plane.
+    double uneven = fmax((double)cut.piece.rest_a, (double)cut.piece.rest_b);
+    bool even = !cut.frame.regular || uneven <= EVEN * k->share / SHARE;
+    double thin = fmax(k->share * size, fmax(20.0 * k->rounding, FRAME_LEAST));
+    bool enough = cut.frame.half[2] <= thin && (even || size <= k->size / 16.0);
     if (enough || depth == MAX_DEPTH || k->cuts.count > k->limit) {
-        complete(k, s, &net, rect, &cut);
+        complete(k, s, rect, &cut);
         array_push(&k->cuts, cut);
         return;
     }
     BezierRect low = rect, high = rect;
-    bool across_u = cut_across_u(s, &cut);
+    bool across_u = cut_across_u(s);
     if (across_u)
         low.u1 = high.u0 = 0.5 * (rect.u0 + rect.u1);
     else
@@ -314,22 +304,6 @@ static AccelPatch make_patch(Arena *arena, const PatchDef *def, double tolerance
     return patch;
 }
 
-static void set_lane(Block *block, int lane, const Tree *tree, Vec3 patch_center, const Cut *cut) {
-    for (int axis = 0; axis < 3; axis++) {
-        double scale = tree->scale;
-        double place = (vec_get(patch_center, axis) - vec_get(tree->center, axis)) * scale;
-        double c = vec_get(cut->c, axis) * scale + place - block->center[axis];
-        block->c[axis][lane] = (float)c;
-        block->eu[axis][lane] = (float)(vec_get(cut->eu, axis) * scale);
-        block->ev[axis][lane] = (float)(vec_get(cut->ev, axis) * scale);
-        // The place is rounded to 2^-52 tree units, upwards rounding to float needs one ulp.
-        double rho = vec_get(cut->rho, axis) * scale + 0x1p-50;
-        block->rho[axis][lane] = nextafterf((float)rho, INFINITY);
-        block->edge = fmax(block->edge, fmax(fabs(vec_get(cut->eu, axis)) * scale,
-                                             fabs(vec_get(cut->ev, axis)) * scale));
-    }
-}
-
 static Box place_box(const AccelPatch *patch, const Cut *cut) {
     return (Box){vec_add(cut->box.low, patch->center), vec_add(cut->box.high, patch->center)};
 }
@@ -348,14 +322,20 @@ static void make_block(const Accel *accel, const Cut *cuts, uint32_t leaf, Block
     for (int axis = 0; axis < 3; axis++) {
         double low = (vec_get(box.low, axis) - vec_get(tree->center, axis)) * tree->scale;
         double high = (vec_get(box.high, axis) - vec_get(tree->center, axis)) * tree->scale;
-        block->center[axis] = 0.5 * (low + high);
-        square += 0.25 * (high - low) * (high - low);
+        block->center[axis] = (float)(0.5 * (low + high));
+        square += (high - low) * (high - low);
     }
-    block->radius = sqrt(square) * (1.0 + 0x1p-40) + 0x1p-48;
+    // The tree's boxes are larger by TREE_PAD on each side, and rays come within rounding of them.
+    double reach = sqrt(square) + 8.0 * (double)TREE_PAD;
     for (uint32_t i = 0; i < BLOCK_LANES; i++) {
-        // Lanes not in use repeat the first; nobody asks for them.
-        const Cut *cut = &cuts[tree->order[block->first + (i < block->count ? i : 0)]];
-        set_lane(block, (int)i, tree, accel->patches[cut->piece.patch].center, cut);
+        if (i < block->count) {
+            const Cut *cut = &cuts[tree->order[block->first + i]];
+            frame_to_lane(&cut->frame, tree, accel->patches[cut->piece.patch].center, reach, block,
+                          (int)i, &accel->pieces[block->first + i]);
+        } else {
+            block->shift[0][i] = 2.0f; // beside the box of every ray: all axes are 0
+            block->shift[1][i] = block->shift[2][i] = 2.0f;
+        }
     }
 }
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 // What METHOD_QI prepares: patches are cut into pieces that are nearly parallelograms, and the
-// pieces lie eight to a leaf of one tree. Private to accel.c, piece.c and root.c.
+// pieces lie eight to a leaf of one tree. Private to accel.c, piece.c, root.c and the kernels.
 //
-// For a piece with local parameters (a,b) in [0,1]^2, the QI net Q (quasi.h) is split into an
-// affine part and a rest, Q_ij = c + (i/du) eu + (j/dv) ev + R_ij with the box of R centred at 0.
-// With e the QI bound of |S - Q|,
-//     S(a,b) - c - a eu - b ev  lies in the box of half size rho = half box of R + e + rounding
-// for all (a,b): a parallelogram with a thickness that holds the whole piece.
+// Each piece gets an affine frame (x,y,z) of its own, made from its tangents at the middle, in
+// which the piece fills the box [-1,1]^3: x goes along u, y along v, z is the thickness. The box
+// comes from the QI net and its bound, taken in the frame. So a ray, taken to the frame, meets the
+// piece only if it meets that box, and x and y are the piece's own parameters a, b in [-1,1] but
+// for a small and smooth rest.
 #ifndef PATCH_PIECE_H
 #define PATCH_PIECE_H
 
@@ -33,21 +33,31 @@ typedef struct {
 // How far outside its rectangle, in shares of its size, a piece's bounds still hold.
 #define PIECE_MARGIN 0x1p-20
 
+// In the frame, with a = (u - middle) / half width and b alike, (x, y, z) is the sum of
+// poly[j][i] a^i b^j but for rounding (of cubic patches; of others up to second order), good for a
+// guess; and what holds strictly is
+//     |a - scale_a x - shift_a| <= rest_a    |b - scale_b y - shift_b| <= rest_b.
 typedef struct {
+    float poly[4][4][4]; // [power of b][power of a][x y z 0]
     BezierRect rect;
     float muu, muv, mvv; // bounds of the lengths of the second derivatives, patch's parameters
-    float suu[3], suv[3], svv[3]; // about what they are
-    uint32_t patch;
+    float scale_a, scale_b, shift_a, shift_b, rest_a, rest_b;
+    uint32_t patch, mask;
+    uint32_t unused[13];
 } Piece;
+_Static_assert(sizeof(Piece) == 384, "six lines of cache");
 
-// Eight thick parallelograms side by side, in tree units (tree.h) about the block's center.
+// The frames of eight pieces side by side: frame = axis (X - center) + shift for X in tree units.
+// steep: with q the ray's direction in the frame, no two points of the piece lie on one such ray if
+//     |qz| > steep[0] |qx| + steep[1] |qy| + steep[2].
 typedef struct {
-    float c[3][BLOCK_LANES], eu[3][BLOCK_LANES], ev[3][BLOCK_LANES], rho[3][BLOCK_LANES];
-    double center[3];      // tree space
-    double radius;         // all pieces lie in this ball about the center
-    double edge;           // max |coordinate of eu, ev|
+    float axis[3][3][BLOCK_LANES]; // [row][coordinate]
+    float shift[3][BLOCK_LANES], steep[3][BLOCK_LANES];
+    float center[4];       // tree space; the fourth is 0
     uint32_t first, count; // lane i is pieces[first + i]
+    uint32_t unused[2];
 } Block;
+_Static_assert(sizeof(Block) == 512, "eight lines of cache");
 
 typedef struct Accel {
     const PatchDef *defs;
@@ -63,5 +73,27 @@ void pieces_build(Arena *arena, const PatchDef *defs, size_t count, double toler
 
 // S, dS/du and dS/dv at (u,v) in [0,1]^2, about the patch's center.
 void piece_eval(const AccelPatch *patch, double u, double v, Vec3 out[3]);
+
+// ---- Frames (frame.c)
+
+// No half size of a box is taken to be less, scene units.
+#define FRAME_LEAST 1e-150
+
+// A frame about the patch's center, scene units: row . X + shift in [-1,1] for each row.
+typedef struct {
+    double row[3][3], shift[3];
+    double half[3]; // the box's half sizes before it was made 1
+    Vec3 middle;    // and its middle, about S at the middle of the parameters
+    double steep[2];
+    bool regular; // else the tangents do not span a plane, and only the box is of use
+} PieceFrame;
+
+// Of the part of a patch over `rect`, whose control points (about the patch's center) and their net
+// err by `error` in each coordinate. Fills what belongs to the frame in *piece.
+void frame_make(const Bezier *part, double error, PieceFrame *frame, Piece *piece);
+// Puts a frame into a lane, and its units into the piece. reach: no point of the block's box, nor a
+// ray's origin in its test, is farther from the block's center than that, tree units.
+void frame_to_lane(const PieceFrame *frame, const Tree *tree, Vec3 patch_center, double reach,
+                   Block *block, int lane, Piece *piece);
 
 #endif

@@ -35,9 +35,6 @@ static inline double clamp(double x, double low, double high) {
     return x < low ? low : x > high ? high : x;
 }
 static inline double length1(Vec3 a) { return fabs(a.x) + fabs(a.y) + fabs(a.z); }
-static inline Vec3 from_floats(const float a[3]) {
-    return vec3((double)a[0], (double)a[1], (double)a[2]);
-}
 
 // The surface about one point, as the ray sees it.
 typedef struct {
@@ -111,8 +108,6 @@ static inline Span solve(double n, double w, double det, double error, double h)
     return (Span){larger(-h, middle - width), smaller(h, middle + width)};
 }
 
-static bool in_range(const Query *query, double t) { return t >= query->t_min && t < query->t_max; }
-
 // ---- What cannot be shown single
 
 typedef struct {
@@ -123,17 +118,9 @@ typedef struct {
     bool go_on;
 } Fallback;
 
-// How far apart two values for one root may be, given the distance between ray and surface.
-static void set_errors(const Point *p, Root *root) {
-    double steep = fabs(p->det);
-    root->sign = p->det > 0.0 ? 1 : -1;
-    root->error_u = 2.0 * root->hit.bound * vec_length(p->m1) / steep;
-    root->error_v = 2.0 * root->hit.bound * vec_length(p->m2) / steep;
-}
-
 static void take_qi(void *context, const QiHit *hit) {
     Fallback *f = context;
-    if (!f->go_on || !in_range(f->query, hit->t))
+    if (!f->go_on || !query_in_range(f->query, hit->t))
         return;
     Root root = {.hit = {hit->t, hit->u, hit->v, hit->normal, hit->bound, f->ray->patch->def->id}};
     Point p;
@@ -141,7 +128,7 @@ static void take_qi(void *context, const QiHit *hit) {
     double lu = vec_length(p.su), lv = vec_length(p.sv);
     // Flatter than this the two sides of a fold are one as far as the bound can tell.
     if (p.det * p.det > lu * lv * hit->bound * (lu + lv))
-        set_errors(&p, &root);
+        root_set_errors(&root, p.m1, p.m2, p.det);
     f->go_on = f->take(f->context, &root);
 }
 
@@ -211,26 +198,13 @@ static Sharpened sharpen(const PatchRay *ray, const Piece *piece, double u, doub
                              .normal = vec_scale(n, 1.0 / area),
                              .bound = distance,
                              .id = ray->patch->def->id}};
-        if (!in_range(query, root.hit.t))
+        if (!query_in_range(query, root.hit.t))
             return SHARPEN_TAKEN;
         if (query->kind == QUERY_ALL)
-            set_errors(&p, &root);
+            root_set_errors(&root, p.m1, p.m2, p.det);
         return take(context, &root) ? SHARPEN_TAKEN : SHARPEN_STOP;
     }
     return SHARPEN_NO;
-}
-
-// Newton's step from the middle of X, and what the second derivatives add to it.
-static inline void guess(const Piece *piece, const Point *p, Span in_u, Span in_v, double *u,
-                         double *v) {
-    double steep = 1.0 / p->det, a = p->nu * steep, b = p->nv * steep;
-    Vec3 bend = vec_scale(from_floats(piece->suu), 0.5 * a * a);
-    bend = vec_madd(bend, a * b, from_floats(piece->suv));
-    bend = vec_madd(bend, 0.5 * b * b, from_floats(piece->svv));
-    a -= vec_dot(bend, p->m1) * steep;
-    b -= vec_dot(bend, p->m2) * steep;
-    *u = clamp(p->u + clamp(a, in_u.low, in_u.high), piece->rect.u0, piece->rect.u1);
-    *v = clamp(p->v + clamp(b, in_v.low, in_v.high), piece->rect.v0, piece->rect.v1);
 }
 
 bool root_search(const PatchRay *ray, const Piece *piece, BezierRect rect, Query *query,
@@ -248,10 +222,10 @@ bool root_search(const PatchRay *ray, const Piece *piece, BezierRect rect, Query
         if (a.low > a.high || b.low > b.high)
             return true;
         if (of.single) {
-            double u, v;
-            guess(piece, &p, a, b, &u, &v);
-            Sharpened done =
-                sharpen(ray, piece, clamp(u, 0.0, 1.0), clamp(v, 0.0, 1.0), query, take, context);
+            const BezierRect *r = &piece->rect;
+            double u = clamp(p.u + clamp(p.nu / p.det, a.low, a.high), r->u0, r->u1);
+            double v = clamp(p.v + clamp(p.nv / p.det, b.low, b.high), r->v0, r->v1);
+            Sharpened done = sharpen(ray, piece, u, v, query, take, context);
             if (done != SHARPEN_NO)
                 return done == SHARPEN_TAKEN;
         }

@@ -36,6 +36,15 @@ typedef struct {
     int sign;                // of the Jacobian along the ray; 0: tangent or singular
 } Root;
 
+// How far apart two values for one root may be, given the distance between ray and surface, from
+// m1 = dir x Sv, m2 = Su x dir, det = Su . m1. Sets the sign too.
+static inline void root_set_errors(Root *root, Vec3 m1, Vec3 m2, double det) {
+    double steep = fabs(det);
+    root->sign = det > 0.0 ? 1 : -1;
+    root->error_u = 2.0 * root->hit.bound * vec_length(m1) / steep;
+    root->error_v = 2.0 * root->hit.bound * vec_length(m2) / steep;
+}
+
 // Calls take for every crossing in rect, a part of the piece's rectangle, that lies within the
 // query's limits on t as they are at the time. take may lower query->t_max; it returns false to
 // end the search. Crossings outside the patch by less than its tolerance are taken too, with (u,v)

@@ -232,6 +232,11 @@ void tree_build(Arena *arena, const Box *boxes, uint32_t count, uint32_t leaf_si
         tree->bounds = all.box;
         tree->center = vec3(middle(&all.box, 0), middle(&all.box, 1), middle(&all.box, 2));
         tree->scale = tree_scale(&all.box, tree->center);
+        Vec3 half = vec_scale(
+            vec_max(vec_sub(all.box.high, tree->center), vec_sub(tree->center, all.box.low)),
+            tree->scale);
+        tree->half = vec_add(
+            half, vec3(4.0 * (double)TREE_PAD, 4.0 * (double)TREE_PAD, 4.0 * (double)TREE_PAD));
         tree->root = make_node(&b, &all, 0);
     }
     tree->node_count = (uint32_t)b.nodes.count;

@@ -40,6 +40,7 @@ typedef struct {
     Box bounds;           // of all boxes, world space
     Vec3 center;
     double scale; // a power of two
+    Vec3 half;    // half sizes of bounds in tree space, 4 TREE_PAD added
 } Tree;
 
 // Boxes of no volume are welcome, empty boxes are not. A leaf gets at most leaf_size boxes.

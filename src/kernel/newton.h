@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: MIT
+// From a guess to the only root of a piece, by Newton steps in double. See patch/root.c, where the
+// same is done for what is not known to be single; the certificate is the same.
+#ifndef KERNEL_NEWTON_H
+#define KERNEL_NEWTON_H
+
+#include "kernel/simd.h"
+#include "patch/walk.h"
+
+enum { NEWTON_STEPS = 6 }; // two, as a rule
+// Of the normal, a sine: pictures have 16 bits.
+static const double NEWTON_NORMAL_ERROR = 1e-6;
+
+typedef enum { NEWTON_LOST, NEWTON_TAKEN, NEWTON_STOP } Newton;
+
+static inline double larger(double a, double b) { return a > b ? a : b; }
+static inline double smaller(double a, double b) { return a < b ? a : b; }
+static inline double clamp(double x, double low, double high) {
+    return x < low ? low : x > high ? high : x;
+}
+static inline double length1(Vec3 a) { return fabs(a.x) + fabs(a.y) + fabs(a.z); }
+
+// S, Su, Sv of a cubic patch; points as [column][row][x y z 0].
+static inline void eval_cubic(const double *p, double u, double v, Vec3 out[3]) {
+    double r = 1.0 - u, s = 1.0 - v;
+    double rr = r * r, uu = u * u, ss = s * s, vv = v * v;
+    D4 wu[4] = {d4_all(rr * r), d4_all(3.0 * rr * u), d4_all(3.0 * r * uu), d4_all(uu * u)};
+    D4 du[4] = {d4_all(-3.0 * rr), d4_all(3.0 * r * (r - 2.0 * u)), d4_all(3.0 * u * (2.0 * r - u)),
+                d4_all(3.0 * uu)};
+    double wv[4] = {ss * s, 3.0 * ss * v, 3.0 * s * vv, vv * v};
+    double dv[4] = {-3.0 * ss, 3.0 * s * (s - 2.0 * v), 3.0 * v * (2.0 * s - v), 3.0 * vv};
+    D4 at = d4_all(0.0), along_u = at, along_v = at;
+    for (int j = 0; j < 4; j++) {
+        D4 p0 = d4_load(p + 16 * j), p1 = d4_load(p + 16 * j + 4), p2 = d4_load(p + 16 * j + 8),
+           p3 = d4_load(p + 16 * j + 12);
+        D4 row = (wu[0] * p0 + wu[1] * p1) + (wu[2] * p2 + wu[3] * p3);
+        D4 slope = (du[0] * p0 + du[1] * p1) + (du[2] * p2 + du[3] * p3);
+        at += d4_all(wv[j]) * row;
+        along_v += d4_all(dv[j]) * row;
+        along_u += d4_all(wv[j]) * slope;
+    }
+    out[0] = vec3(at[0], at[1], at[2]);
+    out[1] = vec3(along_u[0], along_u[1], along_u[2]);
+    out[2] = vec3(along_v[0], along_v[1], along_v[2]);
+}
+
+static inline void eval_patch(const AccelPatch *patch, double u, double v, Vec3 out[3]) {
+    if (patch->cubic)
+        eval_cubic(patch->local, u, v, out);
+    else
+        piece_eval(patch, u, v, out);
+}
+
+// walk->ray and walk->piece are set; (u,v) lies in the piece.
+static inline Newton newton_sharpen(Walk *walk, const Piece *piece, double u, double v) {
+    const PatchRay *ray = &walk->ray;
+    Query *query = walk->query;
+    // Up to a hair outside of the piece, where its bounds still hold: then neighbours agree.
+    const BezierRect *rect = &piece->rect;
+    double hair_u = PIECE_MARGIN * (rect->u1 - rect->u0),
+           hair_v = PIECE_MARGIN * (rect->v1 - rect->v0);
+    const double u0 = larger(rect->u0 - hair_u, 0.0), u1 = smaller(rect->u1 + hair_u, 1.0);
+    const double v0 = larger(rect->v0 - hair_v, 0.0), v1 = smaller(rect->v1 + hair_v, 1.0);
+    const double muu = (double)piece->muu, muv = (double)piece->muv, mvv = (double)piece->mvv;
+    // What rounding leaves is as good as can be had.
+    const double tolerance = larger(ray->patch->tolerance, 2.0 * ray->error);
+    for (int step = 0; step < NEWTON_STEPS; step++) {
+        query->stats.newton++;
+        Vec3 s[3];
+        eval_patch(ray->patch, u, v, s);
+        Vec3 su = s[1], sv = s[2], r = vec_sub(ray->org, s[0]);
+        Vec3 m1 = vec_cross(ray->dir, sv), m2 = vec_cross(su, ray->dir);
+        double det = vec_dot(su, m1), steep = 1.0 / det;
+        if (!(fabs(det) > 0.0)) // also NaN
+            return NEWTON_LOST;
+        double a = clamp(vec_dot(r, m1) * steep, u0 - u, u1 - u);
+        double b = clamp(vec_dot(r, m2) * steep, v0 - v, v1 - v);
+        double turn_u = muu * fabs(a) + muv * fabs(b), turn_v = muv * fabs(a) + mvv * fabs(b);
+        double rest = 0.5 * (turn_u * fabs(a) + turn_v * fabs(b));
+        u = clamp(u + a, u0, u1);
+        v = clamp(v + b, v0, v1);
+        if (!(rest <= tolerance))
+            continue;
+        Vec3 off = vec_sub(vec_sub(r, vec_scale(su, a)), vec_scale(sv, b));
+        double depth = -vec_dot(off, ray->dir);
+        Vec3 across = vec_madd(off, depth, ray->dir), n = vec_cross(su, sv);
+        // The sum of the coordinates is no less than the length, and cheaper.
+        double distance = length1(across) + rest + ray->error, area = vec_length(n);
+        // Does the correction turn the normal? Then look there. Where it goes nowhere (a ray beside
+        // the patch's edge) the turn is 0.
+        double turn = turn_u * length1(sv) + turn_v * length1(su);
+        if (!(distance <= tolerance && turn <= NEWTON_NORMAL_ERROR * area)) {
+            // A step that small goes nowhere else.
+            if (distance > 4.0 * tolerance)
+                return NEWTON_LOST;
+            continue;
+        }
+        Root root = {.hit = {.t = ray->t_base + depth * ray->t_per_s,
+                             .u = u,
+                             .v = v,
+                             .normal = vec_scale(n, 1.0 / area),
+                             .bound = distance,
+                             .id = ray->patch->def->id}};
+        if (!query_in_range(query, root.hit.t))
+            return NEWTON_TAKEN;
+        if (query->kind == QUERY_ALL)
+            root_set_errors(&root, m1, m2, det);
+        return walk_take(walk, &root) ? NEWTON_TAKEN : NEWTON_STOP;
+    }
+    return NEWTON_LOST;
+}
+
+#endif

@@ -92,6 +92,10 @@ typedef struct {
     bool body;                // of clipped_by: only its shape counts
     bool uv_mapping, no_shadow, no_image, no_reflection;
     bool hollow, double_set, double_illuminate;
+    bool grouped;          // some light_group is around
+    bool no_global_lights; // the outermost one says so
+    uint32_t light_group;  // the innermost one that has lights and something to light
+    uint32_t own_lights;   // the group of a light that stands here
 } Inherited;
 
 static uint32_t emit_object(Emitter *e, const ObjectNode *node, const Inherited *from);
@@ -130,15 +134,58 @@ static void apply_flags(Object *object, const Inherited *own) {
     object->no_image = own->no_image;
     object->no_reflection = own->no_reflection;
     object->hollow = own->hollow;
+    object->light_group = own->light_group;
+    object->no_global_lights = own->no_global_lights;
     object->double_illuminate = own->double_illuminate;
 }
 
+// What light_groups are to the objects and lights in them.
+static void enter_group(Emitter *e, const ObjectNode *node, Inherited *own) {
+    own->own_lights = 0;
+    if (node->keyword != KW_light_group)
+        return;
+    if (!own->grouped)
+        own->no_global_lights = !node->global_lights;
+    own->grouped = true;
+    bool lights = false, objects = false;
+    for (const ObjectNode *child = node->first; child; child = child->next) {
+        lights = lights || child->light;
+        objects = objects || !child->light;
+    }
+    if (lights)
+        own->own_lights = ++e->group_count;
+    if (lights && objects)
+        own->light_group = own->own_lights;
+}
+
+static uint32_t emit_projection(Emitter *e, const ObjectNode *body) {
+    // Whatever keeps other rays from seeing it does not count.
+    const Inherited from = {.body = true};
+    uint32_t index = emit_object(e, body, &from);
+    if (index == NO_INDEX)
+        return NO_INDEX;
+    array_push(&e->projections, index);
+    return (uint32_t)(e->projections.count - 1);
+}
+
+static void store_light(Emitter *e, const LightNode *node, uint32_t group) {
+    Light light = light_finished(node);
+    emit_gaps(e, node->gaps);
+    light.group = group;
+    if (node->projected_through) {
+        light.projection = emit_projection(e, node->projected_through);
+        light.has_projection = light.projection != NO_INDEX;
+    }
+    array_push(&e->lights, light);
+}
+
 static uint32_t emit_light(Emitter *e, const ObjectNode *node, const Inherited *from) {
-    emit_gaps(e, node->light->gaps);
-    array_push(&e->lights, light_finished(node->light));
+    store_light(e, node->light, from->own_lights);
     if (!node->light->looks_like)
         return NO_INDEX;
-    return emit_object(e, node->light->looks_like, from);
+    Inherited own = *from;
+    own.no_global_lights = false; // the group's word does not reach into its lights
+    return emit_object(e, node->light->looks_like, &own);
 }
 
 // ---- cutaway_textures
@@ -262,13 +309,14 @@ static void check_bodies(Emitter *e, const ObjectNode *node) {
 }
 
 // Lights shine even out of an object that is left out.
-static void emit_lights(Emitter *e, const ObjectNode *node) {
+static void emit_lights(Emitter *e, const ObjectNode *node, const Inherited *from) {
+    Inherited own = *from;
+    if (node->light)
+        store_light(e, node->light, from->own_lights);
+    else
+        enter_group(e, node, &own);
     for (const ObjectNode *child = node->first; child; child = child->next)
-        emit_lights(e, child);
-    if (node->light) {
-        emit_gaps(e, node->light->gaps);
-        array_push(&e->lights, light_finished(node->light));
-    }
+        emit_lights(e, child, &own);
 }
 
 // ---- what is not modelled
@@ -333,7 +381,7 @@ static void emit_clips(Emitter *e, const ObjectNode *node, Object *object) {
 
 static uint32_t emit_object(Emitter *e, const ObjectNode *node, const Inherited *from) {
     if (!node->light && !is_there(node)) {
-        emit_lights(e, node);
+        emit_lights(e, node, from);
         emit_missing(e, node);
         return NO_INDEX;
     }
@@ -341,6 +389,7 @@ static uint32_t emit_object(Emitter *e, const ObjectNode *node, const Inherited 
     Inherited own = inherit(node, from);
     if (node->light)
         return emit_light(e, node, &own);
+    enter_group(e, node, &own);
     check_bodies(e, node);
     if (object_is_tree(&node->object))
         return emit_tree(e, node, &own);
@@ -438,6 +487,7 @@ static void keep_pools(Emitter *e) {
     KEEP(e, scene, objects, object_count);
     KEEP(e, scene, roots, root_count);
     KEEP(e, scene, lights, light_count);
+    KEEP(e, scene, projections, projection_count);
     KEEP(e, scene, pigments, pigment_count);
     KEEP(e, scene, normals, normal_count);
     KEEP(e, scene, functions, function_count);

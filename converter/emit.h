@@ -39,6 +39,8 @@ typedef struct {
     ARRAY(Object) objects;
     ARRAY(uint32_t) roots;
     ARRAY(Light) lights;
+    ARRAY(uint32_t) projections;
+    uint32_t group_count; // of light_groups
     ARRAY(Pigment) pigments;
     ARRAY(Normal) normals;
     ARRAY(Function) functions;

@@ -53,6 +53,20 @@ static void parse_looks_like(Converter *cv, LightNode *node) {
     node->looks_like = body;
 }
 
+static void need_first(Converter *cv, const ObjectNode *before, const Token *token) {
+    Loc loc = token_loc(cv, token);
+    if (before)
+        die_at(&loc, "a light has only one '%s'", token->text);
+}
+
+// The colour of a light that has a color_map (a spectrum): its colours, each times its position.
+static Rgb map_sum(const MapNode *map) {
+    Rgb sum = {0};
+    for (uint32_t i = 0; i < map->count; i++)
+        sum = rgb_add(sum, rgb_scale(color_rgb(map->items[i].color), map->items[i].value));
+    return sum;
+}
+
 static void need_direction(Converter *cv, const LightNode *node, const Token *token) {
     if (node->directed)
         return;
@@ -96,6 +110,7 @@ Light light_finished(const LightNode *node) {
     if (!light.has_area)
         light.area = area_light_default();
     light.area.circular |= light.area.orient;
+    light.media_attenuation = node->attenuation && !node->no_interaction;
     return light;
 }
 
@@ -184,24 +199,27 @@ static bool parse_rest(Converter *cv, LightNode *node, const Token *token) {
         node->light.area.illumination = parse_optional_bool(cv);
         return true;
     case KW_media_interaction:
+        next_token(cv);
+        node->no_interaction = !parse_optional_bool(cv);
+        return true;
     case KW_media_attenuation:
         next_token(cv);
-        parse_optional_bool(cv);
+        node->attenuation = parse_optional_bool(cv);
         return true;
     case KW_looks_like:
+        need_first(cv, node->looks_like, token);
         next_token(cv);
         parse_looks_like(cv, node);
         return true;
     case KW_projected_through:
+        need_first(cv, node->projected_through, token);
         next_token(cv);
-        parse_body(cv, "projected_through");
-        note_gap(cv, &node->gaps, token,
-                 "projected_through is not modelled: the light shines everywhere");
+        node->projected_through = parse_body(cv, "projected_through");
         return true;
     case KW_color_map:
     case KW_colour_map:
         next_token(cv);
-        parse_map(cv, MAP_COLOR, false);
+        node->light.color = map_sum(parse_map(cv, MAP_COLOR, false));
         return true;
     default:
         return false;

@@ -231,7 +231,7 @@ static bool parse_object_modifier(Converter *cv, ObjectNode *node) {
         parse_radiosity_modifier(cv) || parse_bound(cv, node))
         return true;
     if (node->keyword == KW_light_group && accept(cv, KW_global_lights)) {
-        parse_optional_bool(cv);
+        node->global_lights = parse_optional_bool(cv);
         return true;
     }
     if (starts_color(cv)) {

@@ -185,7 +185,8 @@ typedef struct {
     Light light;
     bool directed; // spotlight, cylinder or parallel was written: point_at may follow
     bool parallel; // `parallel` was written
-    ObjectNode *looks_like;
+    bool no_interaction, attenuation; // media_interaction off, media_attenuation
+    ObjectNode *looks_like, *projected_through;
     const Gap *gaps;
 } LightNode;
 
@@ -253,6 +254,7 @@ struct ObjectNode {
     ObjectNode *bounds, *clips;
     const Loc *bound_loc, *clip_loc;
     const Loc *cutaway; // of cutaway_textures
+    bool global_lights; // of a light_group
     Box box;            // of a CSG, as extent.c keeps it
     bool has_box;
     LightNode *light;

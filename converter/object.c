@@ -124,6 +124,8 @@ void object_unshare(Converter *cv, ObjectNode *object) {
         object->light = arena_copy(cv->arena, object->light, sizeof *object->light);
         if (object->light->looks_like)
             object->light->looks_like = object_copy(cv, object->light->looks_like);
+        if (object->light->projected_through)
+            object->light->projected_through = object_copy(cv, object->light->projected_through);
     }
 }
 
@@ -143,6 +145,8 @@ void object_move(Converter *cv, ObjectNode *object, Move *move) {
         light_move(object->light, move);
         if (object->light->looks_like)
             object_move(cv, object->light->looks_like, move);
+        if (object->light->projected_through)
+            object_move(cv, object->light->projected_through, move);
     }
     shape_move(object, move);
     csg_box_move(object, move);
@@ -200,9 +204,6 @@ static ObjectNode *parse_data(Converter *cv, const Token *token) {
     ObjectNode *object = object_create(cv, code);
     if (!object->modelled)
         object->loc = keep_place(cv, token);
-    if (code == KW_light_group)
-        note_gap(cv, &object->gaps, token,
-                 "light_group is not modelled: its lights shine on everything");
     if (code == KW_light_source)
         parse_light_data(cv, object);
     else if (keyword_is_csg(code) || code == KW_light_group)

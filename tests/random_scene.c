@@ -119,7 +119,14 @@ static Transform random_transform(Rng *rng) {
     X(bool, parallel)                                                                              \
     X(double, radius)                                                                              \
     X(double, falloff)                                                                             \
-    X(double, tightness) X(double, fade_distance) X(double, fade_power) X(bool, has_area)
+    X(double, tightness)                                                                           \
+    X(double, fade_distance)                                                                       \
+    X(double, fade_power)                                                                          \
+    X(bool, has_area)                                                                              \
+    X(bool, media_attenuation)                                                                     \
+    X(uint32_t, group)                                                                             \
+    X(bool, has_projection)                                                                        \
+    X(uint32_t, projection)
 #define AREA_LIGHT_MEMBERS(X)                                                                      \
     X(Vec3[2], axis)                                                                               \
     X(int[2], size)                                                                                \
@@ -190,11 +197,13 @@ static Transform random_transform(Rng *rng) {
     X(bool, no_shadow)                                                                             \
     X(bool, no_image)                                                                              \
     X(bool, no_reflection)                                                                         \
+    X(bool, no_global_lights)                                                                      \
     X(bool, hollow) X(bool, inverse) X(bool, double_illuminate) X(bool, uv_mapping)
 #define OBJECT_MEMBERS(X)                                                                          \
     OBJECT_FLAGS(X)                                                                                \
     X(ObjectType, type)                                                                            \
     X(uint32_t, texture)                                                                           \
+    X(uint32_t, light_group)                                                                       \
     X(uint32_t, interior_texture) X(uint32_t, interior) X(bool, has_transform)
 
 // ---- making ---------------------------------------------------------------------------------
@@ -269,6 +278,8 @@ static Light make_light(Rng *rng) {
     light.has_area = random_bool(rng);
     if (light.has_area)
         light.area = make_area_light(rng);
+    light.media_attenuation = random_bool(rng);
+    light.group = random_below(rng, 3);
     return light;
 }
 
@@ -523,20 +534,21 @@ static void make_shape(Rng *rng, Arena *arena, Object *object) {
     }
 }
 
-enum { MAX_OBJECTS = 200 };
+enum { MAX_OBJECTS = 300 };
 
 // A list of objects and what hangs below; writes their indices to *items.
 static uint32_t make_objects(Rng *rng, Arena *arena, Scene *scene, int depth, uint32_t **items) {
     uint32_t count = random_below(rng, depth == 0 ? 20 : 5);
     *items = ARENA_ARRAY(arena, uint32_t, count);
     for (uint32_t i = 0; i < count; i++) {
-        bool leaf = depth > 3 || scene->object_count > MAX_OBJECTS - 60;
+        bool leaf = depth > 3 || scene->object_count > MAX_OBJECTS - 160;
         ObjectType type = (ObjectType)(leaf ? 3 + random_below(rng, 9) : random_below(rng, 12));
         uint32_t index = scene->object_count++;
         Object object = object_default(type);
         object.texture = index_or_none(rng, scene->texture_count);
         object.interior_texture = index_or_none(rng, scene->texture_count);
         object.interior = index_or_none(rng, scene->interior_count);
+        object.light_group = random_below(rng, 3);
 #define MAKE(Type, name) object.name = rng_next(rng) % 4 == 0;
         OBJECT_FLAGS(MAKE)
 #undef MAKE
@@ -657,6 +669,12 @@ Scene *random_scene(Rng *rng, Arena *arena) {
     make_air(rng, arena, scene);
     scene->objects = ARENA_ARRAY(arena, Object, MAX_OBJECTS);
     scene->root_count = make_objects(rng, arena, scene, 0, &scene->roots);
+    scene->projection_count = make_objects(rng, arena, scene, 2, &scene->projections);
+    for (uint32_t i = 0; i < scene->light_count && scene->projection_count > 0; i++) {
+        scene->lights[i].has_projection = random_bool(rng);
+        if (scene->lights[i].has_projection)
+            scene->lights[i].projection = random_below(rng, scene->projection_count);
+    }
     scene_collect_requires(scene, arena);
     return scene;
 }
@@ -877,6 +895,8 @@ const char *scene_difference(const Scene *a, const Scene *b) {
     COMPARE(uint32_t, interior_count)
     COMPARE(uint32_t, object_count)
     COMPARE(uint32_t, root_count)
+    COMPARE(uint32_t, projection_count)
+    COMPARE_ALL(a->projections, b->projections, a->projection_count)
     COMPARE(uint32_t, requires_count)
     COMPARE_ALL(a->roots, b->roots, a->root_count)
     for (uint32_t i = 0; i < a->requires_count; i++)

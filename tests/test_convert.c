@@ -326,8 +326,11 @@ static void lights_leave_their_unions(void **state) {
     assert_dies("light_source { 0, 1 point_at y }", "'point_at' needs spotlight");
     s = scene_of("difference { light_source { 0, 1 } sphere { 0, 1 } translate x }");
     assert_vec(s->lights[0].location, 1, 0, 0);
-    assert_warns("light_source { 0, 1 projected_through { sphere { x, 1 } } } sphere { 0, 1 }",
-                 "projected_through is not");
+    s = scene_of("light_source { 0, 1 projected_through { sphere { x, 1 } } translate 3*x } "
+                 "sphere { 0, 1 }");
+    assert_true(s->lights[0].has_projection && s->projection_count == 1 && s->root_count == 1);
+    const Object *slit = &s->objects[s->projections[s->lights[0].projection]];
+    assert_true(slit->shape.sphere.center.x == 4);
     assert_dies("light_source { 0, 1 area_light x, y, 0, 3 }", "1 to 2048 points");
 }
 

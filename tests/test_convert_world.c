@@ -285,7 +285,27 @@ static void lights_of_other_kinds(void **state) {
     assert_true(s->lights[2].area.illumination);
     assert_int_equal(s->lights[2].area.adaptive, 1);
     assert_vec(s->lights[4].location, 1, 1, 0);
-    assert_warns("light_group { light_source { y, 1 } sphere { 0, 1 } }", "light_group is not");
+    s = scene_of("light_group { light_source { y, 1 } sphere { 0, 1 } light_group { box { 0, 1 } "
+                 "light_source { x, 1 } global_lights } } light_source { z, 1 } disc { 0, z, 1 }");
+    assert_int_equal(s->light_count, 3);
+    assert_int_equal(s->lights[0].group, 1);
+    assert_int_equal(s->lights[1].group, 2);
+    assert_int_equal(s->lights[2].group, 0);
+    for (uint32_t i = 0; i < s->object_count; i++) {
+        const Object *o = &s->objects[i];
+        if (o->type == OBJECT_SPHERE || o->type == OBJECT_BOX) {
+            assert_int_equal(o->light_group, o->type == OBJECT_SPHERE ? 1 : 2);
+            assert_true(o->no_global_lights);
+        } else if (o->type == OBJECT_DISC) {
+            assert_true(o->light_group == 0 && !o->no_global_lights);
+        }
+    }
+    s = scene_of("light_source { x, 1 media_attenuation } sphere { 0, 1 } "
+                 "light_source { x, 1 media_attenuation media_interaction off }");
+    assert_true(s->lights[0].media_attenuation && !s->lights[1].media_attenuation);
+    assert_dies(
+        "light_source { 0, 1 looks_like { sphere { 0, 1 } } looks_like { sphere { 0, 1 } } }",
+        "only one 'looks_like'");
 }
 
 // Objects that are not modelled: read in full, with modifiers behind.

@@ -114,12 +114,89 @@ static void jitter_keeps_the_mean(void **state) {
     assert_true(fabs(mean[1] - mean[0]) < 0.02);
 }
 
+static const char PARTS[] =
+    "camera { location <0.3, 3, -7> right x up y look_at <0, 0.4, 0> }\n"
+    "plane { y, -0.5 pigment { rgb <0.9, 0.8, 0.7> } finish { specular 0.3 } }\n"
+    "#declare S = sphere { <0, 0.7, 0>, 0.8 pigment { rgb <0.5, 0.7, 0.9> }\n"
+    "  finish { phong 0.5 reflection 0.2 } }\n"
+    "#declare T = sphere { <-1.3, 0.4, -1>, 0.5 pigment { rgbf <0.9, 0.5, 0.3, 0.6> } }\n"
+    "#declare L = light_source { <2, 5, -3> rgb <1, 0.8, 0.6> }\n"
+    "#declare M = light_source { <-4, 3, -5> rgb <0.3, 0.8, 0.6> }\n";
+
+static void check_scenes(const char *const *rows, size_t count) {
+    for (size_t i = 0; i < count; i++) {
+        char text[2048];
+        snprintf(text, sizeof text, "%s%s\n", PARTS, rows[i]);
+        fixture_compare_later(fixture_read(36, 30, text), 9, false);
+    }
+    fixture_compare_now();
+}
+
+// What an outer group says of global lights reaches all objects inside; its lights only those that
+// are in no inner group of their own.
+static void groups(void **state) {
+    (void)state;
+    static const char *const rows[] = {
+        "light_group { S L } T M",
+        "light_group { S L global_lights on } T M",
+        "light_group { S light_group { T M global_lights on } L } light_source { 9, 0.5 }",
+        "light_group { S light_group { T global_lights on } L global_lights }\n"
+        "light_source { 9, 0.5 }",
+        "light_group { light_group { S M } L } T light_source { 9, 0.5 }",
+        "light_group { M } S T L",
+        "light_group { S T global_lights off } L",
+        "light_group { S light_source { <-1, 1, -3> rgb 0.6\n"
+        "  looks_like { sphere { 0, 0.3 pigment { rgb 1 } } } } } T light_source { 9, 0.5 }",
+        "#declare G = light_group { S L } object { G translate -x } T M\n"
+        "object { G translate 1.5*x }",
+    };
+    check_scenes(rows, COUNT(rows));
+}
+
+#define LIGHT "S T light_source { <2, 5, -3> rgb <1, 0.8, 0.6> "
+#define SLIT "difference { box { -1, 1 } cylinder { -2*y, 2*y, 0.6 } } scale <1, 0.2, 0.5> "
+
+static void projections(void **state) {
+    (void)state;
+    static const char *const rows[] = {
+        LIGHT "projected_through { box { <-1, 2, -1.5>, <1, 2.1, 0.5> } } }",
+        LIGHT
+        "projected_through { disc { <1, 2.5, -1.5>, y, 1, 0.3 } } }\n"
+        "sphere { <1.2, 1.7, -1.2>, 0.3 pigment { rgbt 0.5 } } sphere { <1.7, 4, -2.5>, 0.3 }",
+        LIGHT "shadowless projected_through { disc { <1, 2.5, -1.5>, y, 1, 0.3 } } }",
+        LIGHT "projected_through { " SLIT "translate <1, 2.5, -1.5> } spotlight parallel }",
+        "S T light_source { <-1, 1.5, -3> rgb 1 fade_distance 2 fade_power 2 looks_like {\n"
+        "  sphere { 0, 0.3 pigment { rgbt <1, 1, 1, 0.5> } finish { ambient 1 } } } }\n"
+        "light_source { <2, 4, -3>, 0.5 }",
+        "S T light_source { <2, 3, -3> color_map { [0.2 rgb x] [0.5 rgb <0, 1, 1>] [1 rgb 0.3] } }",
+    };
+    check_scenes(rows, COUNT(rows));
+}
+
+#define BRIGHT "light_source { <2, 5, -3> rgb <5, 4, 3> media_attenuation "
+
+static void fog_before_lights(void **state) {
+    (void)state;
+    static const char *const rows[] = {
+        "S T " BRIGHT "} fog { distance 10 rgbft <0.5, 0.6, 0.7, 0.3, 0.2> }",
+        "S T " BRIGHT "} fog { fog_type 2 fog_alt 0.5 distance 3 rgb 0.6 turbulence 1 }",
+        "S T " BRIGHT "media_interaction off } fog { distance 10 rgb 0.6 }",
+        "S object { T hollow } " BRIGHT "} fog { distance 10 rgb 0.6 }",
+        "S T " BRIGHT "area_light 2*x, 2*z, 3, 3 } fog { distance 10 rgb 0.6 }",
+        "S T " BRIGHT "area_light 2*x, 2*z, 4, 5 adaptive 1 } fog { distance 10 rgb 0.6 }",
+    };
+    check_scenes(rows, COUNT(rows));
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(beams),
         cmocka_unit_test(areas),
         cmocka_unit_test(area_illumination),
         cmocka_unit_test(jitter_keeps_the_mean),
+        cmocka_unit_test(groups),
+        cmocka_unit_test(projections),
+        cmocka_unit_test(fog_before_lights),
     };
     return cmocka_run_group_tests_name("shade_lights", tests, NULL, NULL);
 }

@@ -205,7 +205,9 @@ bool object_is_tree(const Object *object) {
     X(layered_texture)                                                                             \
     X(leopard)                                                                                     \
     X(light_fade)                                                                                  \
+    X(light_group)                                                                                 \
     X(marble)                                                                                      \
+    X(media_attenuation)                                                                           \
     X(merge)                                                                                       \
     X(metallic)                                                                                    \
     X(no_image)                                                                                    \
@@ -226,6 +228,7 @@ bool object_is_tree(const Object *object) {
     X(planar)                                                                                      \
     X(plane)                                                                                       \
     X(point_light)                                                                                 \
+    X(projected_through)                                                                           \
     X(quilted)                                                                                     \
     X(radial)                                                                                      \
     X(rainbow)                                                                                     \
@@ -322,6 +325,9 @@ static void collect_lights(const Scene *scene, FeatureSet *set) {
         need(set, FEATURE_cylinder_light, light->type == LIGHT_CYLINDER);
         need(set, FEATURE_area_light, light->has_area);
         need(set, FEATURE_shadowless_light, light->shadowless);
+        need(set, FEATURE_light_group, light->group != 0);
+        need(set, FEATURE_media_attenuation, light->media_attenuation);
+        need(set, FEATURE_projected_through, light->has_projection);
         need(set, FEATURE_light_fade, light->fade_distance != 0 && light->fade_power > 0);
     }
 }
@@ -433,6 +439,7 @@ static void collect_objects(const Scene *scene, FeatureSet *set) {
         const Object *object = &scene->objects[i];
         need(set, object_feature(object), true);
         need(set, FEATURE_interior_texture, object->interior_texture != NO_INDEX);
+        need(set, FEATURE_light_group, object->light_group != 0 || object->no_global_lights);
         need(set, FEATURE_no_shadow, object->no_shadow);
         need(set, FEATURE_no_image, object->no_image);
         need(set, FEATURE_no_reflection, object->no_reflection);

@@ -110,6 +110,10 @@ typedef struct {
     double fade_power;
     bool has_area;
     AreaLight area;
+    bool media_attenuation; // fog dims it on its way
+    uint32_t group;         // lights only objects of that light_group; 0: all
+    bool has_projection;    // only light that has met this object counts, and what is nearer to
+    uint32_t projection;    // the light than it throws no shadow: index in Scene.projections
 } Light;
 
 // ---- textures -------------------------------------------------------------------------------
@@ -404,8 +408,10 @@ typedef struct {
     // air interior of its own; two objects with the same index are one body to a ray.
     uint32_t texture, interior_texture, interior;
     bool no_shadow, no_image, no_reflection, hollow, double_illuminate;
-    bool inverse;    // of leaves only: the inverse of a tree is lowered to that of its leaves
-    bool uv_mapping; // object level: all its textures are evaluated at (u, v, 0)
+    bool no_global_lights; // in a light_group: only its lights shine on it
+    uint32_t light_group;  // see Light.group; 0: none
+    bool inverse;          // of leaves only: the inverse of a tree is lowered to that of its leaves
+    bool uv_mapping;       // object level: all its textures are evaluated at (u, v, 0)
     bool has_transform;
     Transform transform; // local to world, for SPHERE .. DISC
     // Hits, and the inside, are only where all of these objects are (their flags and textures do
@@ -484,6 +490,8 @@ typedef struct {
     uint32_t object_count;
     uint32_t *roots; // what stands at top level, in the order of the source
     uint32_t root_count;
+    uint32_t *projections; // objects that are not in the picture: see Light.projection
+    uint32_t projection_count;
     const char **requires; // features the scene needs, sorted, each once ("bicubic_patch", ...)
     uint32_t requires_count;
 } Scene;

@@ -123,6 +123,13 @@ static const Field LIGHT_FIELDS[] = {
      AT(Light, area),
      .link = offsetof(Light, has_area),
      .record = &AREA_LIGHT},
+    BOOL(Light, media_attenuation, "media_attenuation"),
+    INDEX(Light, group, "group"),
+    {.name = "projected_through",
+     .type = FIELD_INDEX,
+     .presence = FIELD_FLAGGED,
+     AT(Light, projection),
+     .link = offsetof(Light, has_projection)},
     END,
 };
 static void default_light(void *out) { *(Light *)out = light_default(LIGHT_POINT); }
@@ -212,6 +219,8 @@ static const Field OBJECT_FIELDS[] = {
     BOOL(Object, no_image, "no_image"),
     BOOL(Object, no_reflection, "no_reflection"),
     BOOL(Object, hollow, "hollow"),
+    INDEX(Object, light_group, "light_group"),
+    BOOL(Object, no_global_lights, "no_global_lights"),
     BOOL(Object, inverse, "inverse"),
     BOOL(Object, double_illuminate, "double_illuminate"),
     BOOL(Object, uv_mapping, "uv_mapping"),

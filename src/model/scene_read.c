@@ -354,7 +354,8 @@ static void read_header(const Reader *r) {
 }
 
 static void read_document(void *context) {
-    static const char *const KEYS[] = {"format", "version", "requires", "buffers", "objects", NULL};
+    static const char *const KEYS[] = {"format",  "version",     "requires", "buffers",
+                                       "objects", "projections", NULL};
     Reader *r = context;
     Scene *scene = r->scene;
     r->root = parse(r->file, r->scratch);
@@ -363,15 +364,22 @@ static void read_document(void *context) {
     read_record(r, NULL, r->root, &SCENE_RECORD, scene, KEYS);
     read_buffers(r);
     json_t *objects = json_object_get(r->root, "objects");
-    if (objects) {
-        uint64_t total = count_objects(r, NULL, "objects", objects, 0);
-        if (total >= NO_INDEX)
-            path_die(r->file, NULL, "more objects than can be numbered");
-        scene->object_count = (uint32_t)total;
-        scene->objects = ARENA_ARRAY(r->arena, Object, scene->object_count);
-        r->positions = ARENA_ARRAY(r->scratch, uint32_t, scene->object_count);
+    json_t *projections = json_object_get(r->root, "projections");
+    uint64_t total = 0;
+    if (objects)
+        total += count_objects(r, NULL, "objects", objects, 0);
+    if (projections)
+        total += count_objects(r, NULL, "projections", projections, 0);
+    if (total >= NO_INDEX)
+        path_die(r->file, NULL, "more objects than can be numbered");
+    scene->object_count = (uint32_t)total;
+    scene->objects = ARENA_ARRAY(r->arena, Object, scene->object_count);
+    r->positions = ARENA_ARRAY(r->scratch, uint32_t, scene->object_count);
+    if (objects)
         scene->roots = read_objects(r, NULL, "objects", objects, &scene->root_count);
-    }
+    if (projections)
+        scene->projections =
+            read_objects(r, NULL, "projections", projections, &scene->projection_count);
     // Scripts add and remove objects; what is needed is read off the scene itself.
     scene_collect_requires(scene, r->arena);
     scene_validate_at(scene, r->file, r->positions);

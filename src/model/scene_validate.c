@@ -79,6 +79,10 @@ static void check_light(const Check *c, const FieldPath *path, const Light *ligh
     check_numbers(c, path, "radius", &light->radius, 1);
     check_numbers(c, path, "falloff", &light->falloff, 1);
     check_numbers(c, path, "tightness", &light->tightness, 1);
+    if (light->has_projection) {
+        const FieldPath projection = path_field(path, "projected_through");
+        check_index(c, &projection, light->projection, c->scene->projection_count, "projection");
+    }
     if (light->has_area) {
         const FieldPath area = path_field(path, "area");
         check_area_light(c, &area, &light->area);
@@ -280,6 +284,7 @@ static void check_list(Check *c, const FieldPath *up, const char *name, const ui
 static void check_objects(Check *c) {
     const Scene *scene = c->scene;
     check_list(c, NULL, "objects", scene->roots, scene->root_count, 0);
+    check_list(c, NULL, "projections", scene->projections, scene->projection_count, 0);
     for (uint32_t i = 0; i < scene->object_count; i++)
         if (!c->met[i])
             refuse(c, NULL, "object %u is part of no tree", i);

@@ -389,6 +389,10 @@ static void write_document(Writer *w, const char *uri) {
     write_fields(w, &state, &SCENE_RECORD, scene, &defaults);
     member(w, &state, "objects");
     write_objects(w, scene->roots, scene->root_count);
+    if (scene->projection_count > 0) {
+        member(w, &state, "projections");
+        write_objects(w, scene->projections, scene->projection_count);
+    }
     if (w->binary) {
         member(w, &state, "buffers");
         fprintf(w->out, "[{\"uri\":%s,\"byteLength\":%llu}]", uri, (unsigned long long)w->position);

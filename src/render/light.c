@@ -110,13 +110,14 @@ void light_shine(Tracer *tracer, const LitLayer *layer, bool shadowless, const L
 
 static void find_shadow(Tracer *tracer, const Surface *surface, uint32_t index, LightSample *s) {
     const Light *light = &tracer->shading->scene->lights[index];
-    if (!tracer->shading->quality.shadows || light->shadowless || s->shadow_done)
+    if (!tracer->shading->quality.shadows || s->shadow_done ||
+        (light->shadowless && !light->has_projection))
         return;
     if (light->has_area && tracer->shading->quality.area_lights)
         area_shadow(tracer, surface, index, s);
     else
-        shadow_filter(tracer, (Ray){surface->hit->p, s->dir}, s->distance, surface->path->inside,
-                      &s->color);
+        shadow_filter(tracer, index, (Ray){surface->hit->p, s->dir}, s->distance,
+                      surface->path->inside, &s->color);
     s->shadow_done = true;
 }
 
@@ -165,6 +166,18 @@ void lights_add(Tracer *tracer, const LitLayer *layer, Rgb *color) {
     if (finish->diffuse == 0.0f && finish->diffuse_back == 0.0f && finish->specular == 0.0f &&
         finish->phong == 0.0f)
         return;
-    for (uint32_t i = 0; i < tracer->shading->scene->light_count; i++)
-        add_light(tracer, layer, i, color);
+    const Scene *scene = tracer->shading->scene;
+    if (!tracer->shading->groups) {
+        for (uint32_t i = 0; i < scene->light_count; i++)
+            add_light(tracer, layer, i, color);
+        return;
+    }
+    // Those of all objects first.
+    const Object *object = &scene->objects[layer->surface->hit->object];
+    for (uint32_t i = 0; i < scene->light_count && !object->no_global_lights; i++)
+        if (scene->lights[i].group == 0)
+            add_light(tracer, layer, i, color);
+    for (uint32_t i = 0; i < scene->light_count && object->light_group != 0; i++)
+        if (scene->lights[i].group == object->light_group)
+            add_light(tracer, layer, i, color);
 }

@@ -17,6 +17,9 @@ typedef struct {
     uint32_t index;
     Vec3 axis[2]; // turned to the surface when the light is oriented
     Rgb color;    // before shadows
+    bool foggy;   // the light is dimmed by fog
+    Vec3 fog_dir; // of the way that fog dims, and how long it is
+    double fog_distance;
 } Grid;
 
 static double jitter_next(Tracer *tracer) { return tracer_random(&tracer->area_jitter) - 0.5; }
@@ -57,7 +60,7 @@ static Vec3 grid_offset(const Grid *grid, int i, int j) {
 // Not yet asked for: no colour of light is so dark.
 static const float UNKNOWN = -1e30f;
 
-static Rgb grid_color(const Grid *grid, int i, int j) {
+static Rgb grid_color(Grid *grid, int i, int j) {
     Tracer *tracer = grid->tracer;
     Rgb *color = &tracer->grid[(size_t)i * (size_t)grid->area->size[1] + (size_t)j];
     if (color->r != UNKNOWN)
@@ -65,7 +68,8 @@ static Rgb grid_color(const Grid *grid, int i, int j) {
     const WorldHit *hit = grid->surface->hit;
     LightSample s = light_sample(tracer->shading, grid->index, hit->p, grid_offset(grid, i, j));
     *color = grid->color;
-    shadow_filter(tracer, (Ray){hit->p, s.dir}, s.distance, grid->surface->path->inside, color);
+    grid->fog_distance = shadow_filter_point(tracer, grid->index, (Ray){hit->p, s.dir}, s.distance,
+                                             grid->surface->path->inside, color);
     return *color;
 }
 
@@ -73,37 +77,67 @@ static bool uneven(Rgb a, Rgb b) {
     return fabs(a.r - b.r) + fabs(a.g - b.g) + fabs(a.b - b.b) > UNEVEN;
 }
 
-static Rgb rectangle_color(const Grid *grid, int left, int low, int right, int high, int level) {
-    Rgb c[4] = {grid_color(grid, left, low), grid_color(grid, right, low),
-                grid_color(grid, left, high), grid_color(grid, right, high)};
+// POV-Ray looks at the light's middle anew before it goes into a part, but adds the middle to
+// itself by mistake. Only fog notices: it lies along the way that was looked at last.
+static void look_twice_as_far(Grid *grid) {
+    const Shading *shading = grid->tracer->shading;
+    LightSample s = light_sample(shading, grid->index, grid->surface->hit->p,
+                                 shading->scene->lights[grid->index].location);
+    grid->fog_dir = s.dir;
+    grid->fog_distance = s.distance;
+}
+
+static Rgb rectangle_color(Grid *grid, int left, int low, int right, int high, int level) {
+    const int corner[4][2] = {{left, low}, {right, low}, {left, high}, {right, high}};
+    Rgb c[4];
+    for (int k = 0; k < 4; k++)
+        c[k] = grid_color(grid, corner[k][0], corner[k][1]);
     bool divide = level < grid->area->adaptive || uneven(c[0], c[1]) || uneven(c[1], c[3]) ||
                   uneven(c[3], c[2]) || uneven(c[2], c[0]);
     if (divide && (right - left > 1 || high - low > 1)) {
         int x0 = (left + right) / 2, x1 = (left + right + 1) / 2;
         int y0 = (low + high) / 2, y1 = (low + high + 1) / 2;
-        c[0] = rectangle_color(grid, left, low, x0, y0, level + 1);
-        c[1] = rectangle_color(grid, x1, low, right, y0, level + 1);
-        c[2] = rectangle_color(grid, left, y1, x0, high, level + 1);
-        c[3] = rectangle_color(grid, x1, y1, right, high, level + 1);
+        const int part[4][4] = {
+            {left, low, x0, y0}, {x1, low, right, y0}, {left, y1, x0, high}, {x1, y1, right, high}};
+        for (int k = 0; k < 4; k++) {
+            if (grid->foggy)
+                look_twice_as_far(grid);
+            c[k] = rectangle_color(grid, part[k][0], part[k][1], part[k][2], part[k][3], level + 1);
+        }
     }
     return rgb_scale(rgb_add(rgb_add(rgb_add(c[0], c[1]), c[2]), c[3]), 0.25);
 }
 
 void area_shadow(Tracer *tracer, const Surface *surface, uint32_t index, LightSample *sample) {
-    const AreaLight *area = &tracer->shading->scene->lights[index].area;
-    Grid grid = {tracer, surface, area, index, {vec3(0, 0, 0)}, sample->color};
+    const Shading *shading = tracer->shading;
+    const Light *light = &shading->scene->lights[index];
+    const AreaLight *area = &light->area;
+    Grid grid = {.tracer = tracer,
+                 .surface = surface,
+                 .area = area,
+                 .index = index,
+                 .color = sample->color,
+                 .foggy = light->media_attenuation,
+                 .fog_dir = sample->dir};
     turn_axes(area, sample->dir, grid.axis);
     size_t points = (size_t)area->size[0] * (size_t)area->size[1];
     for (size_t i = 0; i < points; i++)
         tracer->grid[i].r = UNKNOWN;
     sample->color = rectangle_color(&grid, 0, 0, area->size[0] - 1, area->size[1] - 1, 0);
+    if (grid.foggy)
+        shadow_fog(shading, index, (Ray){surface->hit->p, grid.fog_dir}, grid.fog_distance,
+                   surface->path->inside, &sample->color);
 }
 
 void area_shine(Tracer *tracer, const LitLayer *layer, uint32_t index, const LightSample *sample,
                 Rgb *color) {
     const Light *light = &tracer->shading->scene->lights[index];
     const AreaLight *area = &light->area;
-    Grid grid = {tracer, layer->surface, area, index, {vec3(0, 0, 0)}, sample->color};
+    Grid grid = {.tracer = tracer,
+                 .surface = layer->surface,
+                 .area = area,
+                 .index = index,
+                 .color = sample->color};
     turn_axes(area, sample->dir, grid.axis);
     double points = area->size[0] * area->size[1];
     Rgb part = rgb((float)(sample->color.r / points), (float)(sample->color.g / points),

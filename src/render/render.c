@@ -233,7 +233,7 @@ Image *render_scene(const Scene *scene, const RenderOptions *o, Arena *arena,
     double start = progress_seconds();
     PatchSetOptions patches = patch_options(o);
     World *world = world_create(scene, &patches);
-    const TraceOptions trace = {.quality = o->quality, .alpha = o->alpha};
+    const TraceOptions trace = {.quality = o->quality, .alpha = o->alpha, .patches = patches};
     Shading *shading = shading_create(scene, world, &trace);
     stats->memory = world_memory(world);
     for (uint32_t i = 0; i < scene->object_count; i++)
@@ -289,7 +289,7 @@ void render_pixel(const Scene *scene, const RenderOptions *o, FILE *out) {
             o->height);
     PatchSetOptions patches = patch_options(o);
     World *world = world_create(scene, &patches);
-    const TraceOptions trace = {.quality = o->quality, .alpha = o->alpha};
+    const TraceOptions trace = {.quality = o->quality, .alpha = o->alpha, .patches = patches};
     Shading *shading = shading_create(scene, world, &trace);
     Color color = story_of_pixel(scene, shading, o->width, o->height, x, y, out);
     Film film =

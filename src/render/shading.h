@@ -58,6 +58,8 @@ struct Shading {
     ObjectInfo *objects;  // one per scene object
     bool *hollow;         // one per body: fog goes on inside
     LightAxis *axes;      // one per light
+    World **projections;  // one per light: what it shines through, or NULL
+    bool groups;          // some light does not shine on everything
     BowAngles *bows;      // one per rainbow
     size_t grid_limit;    // points in the largest area light
     Arena *arena;
@@ -164,10 +166,16 @@ void area_shadow(Tracer *tracer, const Surface *surface, uint32_t index, LightSa
 void area_shine(Tracer *tracer, const LitLayer *layer, uint32_t index, const LightSample *sample,
                 Rgb *color);
 
-// shadow.c: multiplies color by what ray (from the surface, unit dir) lets through to a light at
+// shadow.c: multiplies color by what ray (from the surface, unit dir) lets through to the light at
 // that distance. inside: the bodies around the surface's own ray.
-void shadow_filter(Tracer *tracer, Ray ray, double distance, const InteriorList *inside,
-                   Rgb *color);
+void shadow_filter(Tracer *tracer, uint32_t light, Ray ray, double distance,
+                   const InteriorList *inside, Rgb *color);
+// The two halves of it. One point of an area light: all but the fog behind the last surface between
+// them; returns how long that way is. And that fog, for the light as a whole.
+double shadow_filter_point(Tracer *tracer, uint32_t light, Ray ray, double distance,
+                           const InteriorList *inside, Rgb *color);
+void shadow_fog(const Shading *shading, uint32_t light, Ray ray, double distance,
+                const InteriorList *inside, Rgb *color);
 
 // finish.c: one light, dir unit and towards it.
 void finish_diffuse(Tracer *tracer, const LitLayer *layer, Vec3 dir, Rgb light, bool backside,

@@ -15,9 +15,10 @@
 static double shadow_t_min(void) { return nextafter(SHADE_SHADOW_TOL, 1.0); }
 
 // The bodies that swallow light and that the shadow ray has crossed an odd number of times: it is
-// inside those and those of the surface's own ray, but not inside both. Only fading needs it.
+// inside those and those of the surface's own ray, but not inside both. Only fading and fog need
+// it.
 typedef struct {
-    uint32_t bodies[64]; // more of them around each other: the innermost do not fade
+    uint32_t bodies[64]; // more of them around each other: the innermost do not count
     uint32_t count;
 } Crossed;
 
@@ -83,9 +84,42 @@ static Color texture_filter(const Filter *f, uint32_t index, Vec3 p) {
                        texture_filter(f, choice.entries[choice.second].index, choice.p));
 }
 
+// A shadow ray on its way.
+typedef struct {
+    const Shading *shading;
+    const Light *light;
+    Ray ray;
+    const InteriorList *inside;
+    Crossed crossed;
+} Way;
+
+static bool is_inside(const Way *way, uint32_t body) {
+    return interior_inside(way->inside, body) != has_crossed(&way->crossed, body);
+}
+
+// Are all bodies hollow that the ray is in?
+static bool is_in_air(const Way *way) {
+    const bool *hollow = way->shading->hollow;
+    for (const InteriorList *node = way->inside; node != NULL; node = node->outer)
+        if (!hollow[node->body] && is_inside(way, node->body))
+            return false;
+    for (uint32_t i = 0; i < way->crossed.count; i++)
+        if (!hollow[way->crossed.bodies[i]] && is_inside(way, way->crossed.bodies[i]))
+            return false;
+    return true;
+}
+
+static void add_fog(const Way *way, double depth, Rgb *color) {
+    const Shading *shading = way->shading;
+    if (way->light->media_attenuation && shading->scene->fog_count > 0 && shading->quality.air &&
+        is_in_air(way))
+        *color = fog_dim(shading, &way->ray, depth, *color);
+}
+
 // What the surface at hit lets through; false when nothing.
-static bool surface_filter(const Shading *shading, const Ray *ray, const InteriorList *inside,
-                           const WorldHit *hit, Crossed *crossings, Rgb *color) {
+static bool surface_filter(Way *way, const WorldHit *hit, Rgb *color) {
+    const Shading *shading = way->shading;
+    const Ray *ray = &way->ray;
     const ObjectInfo *info = &shading->objects[hit->object];
     if (info->opaque)
         return false;
@@ -104,36 +138,97 @@ static bool surface_filter(const Shading *shading, const Ray *ray, const Interio
                 &at,     &spaces};
     Vec3 p = object->uv_mapping ? vec3(hit->u, hit->v, 0.0) : hit->p;
     Rgb through = color_through(texture_filter(&f, index, p));
-    if (interior != NULL && interior->fade_power > 0.0f) {
-        if (interior_inside(inside, info->body) != has_crossed(crossings, info->body))
-            through = rgb_mul(through, refract_fade(interior, hit->t));
-        cross(crossings, info->body);
-    }
+    bool fades = interior != NULL && interior->fade_power > 0.0f;
+    if (fades && is_inside(way, info->body))
+        through = rgb_mul(through, refract_fade(interior, hit->t));
     *color = rgb_mul(*color, through);
+    add_fog(way, hit->t, color);
+    if (fades || way->light->media_attenuation)
+        cross(&way->crossed, info->body);
     return true;
 }
 
-void shadow_filter(Tracer *tracer, Ray ray, double distance, const InteriorList *inside,
-                   Rgb *color) {
-    const Shading *shading = tracer->shading;
+// How far before the light the object ends that it shines through: nothing there throws a shadow.
+// False: the ray misses it, or it lies behind the light.
+static bool find_projection(Tracer *tracer, uint32_t light, const Ray *ray, double distance,
+                            double *before) {
+    const World *world = tracer->shading->projections[light];
+    WorldHit hit;
+    *before = 0.0;
+    if (world == NULL)
+        return true;
+    if (!world_intersect(world, ray, SHADE_MIN_DEPTH, distance, RAY_ALL, &tracer->stats, &hit))
+        return false;
+    *before = distance - hit.t + SHADE_SHADOW_TOL;
+    return true;
+}
+
+// From surface to surface; what is left of the distance.
+static double follow(Tracer *tracer, Way *way, double distance, double before, Rgb *color) {
+    const World *world = way->shading->world;
     const Rgb black = {0};
     double t_min = shadow_t_min();
-    tracer->stats.shadow++;
-    if (shading->all_opaque) {
-        if (world_occluded(shading->world, &ray, t_min, distance - SHADE_SHADOW_TOL,
-                           &tracer->stats))
+    if (way->shading->all_opaque) {
+        if (world_occluded(world, &way->ray, t_min, distance - before, &tracer->stats))
             *color = black;
-        return;
+        return distance;
     }
     WorldHit hit;
-    Crossed crossings = {.count = 0};
-    while (world_intersect(shading->world, &ray, t_min, distance - SHADE_SHADOW_TOL, RAY_SHADOW,
-                           &tracer->stats, &hit)) {
-        if (!surface_filter(shading, &ray, inside, &hit, &crossings, color)) {
+    while (world_intersect(world, &way->ray, t_min, distance - before, RAY_SHADOW, &tracer->stats,
+                           &hit)) {
+        if (!surface_filter(way, &hit, color)) {
             *color = black;
-            return;
+            break;
         }
         distance -= hit.t;
-        ray.org = hit.p;
+        way->ray.org = hit.p;
     }
+    return distance;
+}
+
+static double filter_by_objects(Tracer *tracer, Way *way, uint32_t light, double distance,
+                                Rgb *color) {
+    double before;
+    tracer->stats.shadow++;
+    if (!find_projection(tracer, light, &way->ray, distance, &before))
+        *color = (Rgb){0};
+    else if (!way->light->shadowless)
+        return follow(tracer, way, distance, fmax(before, SHADE_SHADOW_TOL), color);
+    return distance;
+}
+
+static void fog_the_rest(const Way *way, double distance, Rgb *color) {
+    if (distance > SHADE_SHADOW_TOL)
+        add_fog(way, distance, color);
+}
+
+void shadow_filter(Tracer *tracer, uint32_t light, Ray ray, double distance,
+                   const InteriorList *inside, Rgb *color) {
+    Way way = {.shading = tracer->shading,
+               .light = &tracer->shading->scene->lights[light],
+               .ray = ray,
+               .inside = inside,
+               .crossed.count = 0};
+    double left = filter_by_objects(tracer, &way, light, distance, color);
+    fog_the_rest(&way, left, color);
+}
+
+double shadow_filter_point(Tracer *tracer, uint32_t light, Ray ray, double distance,
+                           const InteriorList *inside, Rgb *color) {
+    Way way = {.shading = tracer->shading,
+               .light = &tracer->shading->scene->lights[light],
+               .ray = ray,
+               .inside = inside,
+               .crossed.count = 0};
+    return filter_by_objects(tracer, &way, light, distance, color);
+}
+
+void shadow_fog(const Shading *shading, uint32_t light, Ray ray, double distance,
+                const InteriorList *inside, Rgb *color) {
+    const Way way = {.shading = shading,
+                     .light = &shading->scene->lights[light],
+                     .ray = ray,
+                     .inside = inside,
+                     .crossed.count = 0};
+    fog_the_rest(&way, distance, color);
 }

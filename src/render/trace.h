@@ -9,8 +9,9 @@
 
 // The parts of the options that the shading needs.
 typedef struct {
-    int quality; // POV-Ray's 0..9
-    bool alpha;  // +UA: the background stays transparent
+    int quality;             // POV-Ray's 0..9
+    bool alpha;              // +UA: the background stays transparent
+    PatchSetOptions patches; // for what lights are projected through; zeroes: the default
 } TraceOptions;
 
 // What is worked out once per scene: opaque flags, light directions, ... Shared by all threads.

@@ -39,6 +39,7 @@ static void prepare_objects(Shading *shading) {
         info->opaque = texture_is_opaque(scene, object->texture) &&
                        (object->interior_texture == NO_INDEX ||
                         texture_is_opaque(scene, object->interior_texture));
+        shading->groups |= object->no_global_lights;
         if (!object_is_tree(object) && !object->no_shadow && !info->opaque)
             shading->all_opaque = false;
         // Objects of one body that do not agree: the last decides, as in POV-Ray.
@@ -46,14 +47,29 @@ static void prepare_objects(Shading *shading) {
     }
 }
 
+// The object alone in a world of its own.
+static World *projection_world(const Shading *shading, const Light *light) {
+    Scene *scene = arena_copy(shading->arena, shading->scene, sizeof *scene);
+    PatchSetOptions patches = shading->options.patches;
+    if (!(patches.tolerance > 0.0))
+        patches = patchset_options_default();
+    scene->roots = &shading->scene->projections[light->projection];
+    scene->root_count = 1;
+    return world_create(scene, &patches);
+}
+
 static void prepare_lights(Shading *shading) {
     const Scene *scene = shading->scene;
     shading->axes = ARENA_ARRAY(shading->arena, LightAxis, scene->light_count);
+    shading->projections = ARENA_ARRAY(shading->arena, World *, scene->light_count);
     for (uint32_t i = 0; i < scene->light_count; i++) {
         const Light *light = &scene->lights[i];
         LightAxis *axis = &shading->axes[i];
         if (light->type != LIGHT_POINT)
             axis->travel = vec_normalize(vec_sub(light->point_at, light->location));
+        shading->groups |= light->group != 0;
+        if (light->has_projection)
+            shading->projections[i] = projection_world(shading, light);
         bool spot = light->type == LIGHT_SPOT;
         axis->radius = spot ? cos(light->radius * M_PI / 180.0) : light->radius;
         axis->falloff = spot ? cos(light->falloff * M_PI / 180.0) : light->falloff;
@@ -83,8 +99,11 @@ Shading *shading_create(const Scene *scene, const World *world, const TraceOptio
 }
 
 void shading_destroy(Shading *shading) {
-    if (shading != NULL)
-        arena_destroy(shading->arena);
+    if (shading == NULL)
+        return;
+    for (uint32_t i = 0; i < shading->scene->light_count; i++)
+        world_destroy(shading->projections[i]);
+    arena_destroy(shading->arena);
 }
 
 Tracer *tracer_create(const Shading *shading) {

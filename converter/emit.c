@@ -489,6 +489,7 @@ static void keep_pools(Emitter *e) {
     KEEP(e, scene, lights, light_count);
     KEEP(e, scene, projections, projection_count);
     KEEP(e, scene, pigments, pigment_count);
+    KEEP(e, scene, pictures, picture_count);
     KEEP(e, scene, normals, normal_count);
     KEEP(e, scene, functions, function_count);
     KEEP(e, scene, textures, texture_count);

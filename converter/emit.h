@@ -41,6 +41,7 @@ typedef struct {
     ARRAY(Light) lights;
     ARRAY(uint32_t) projections;
     uint32_t group_count; // of light_groups
+    ARRAY(Picture) pictures;
     ARRAY(Pigment) pigments;
     ARRAY(Normal) normals;
     ARRAY(Function) functions;
@@ -76,6 +77,8 @@ void node_put(Emitter *e, NodeTable *table, const void *node, uint32_t index);
 
 // Where `at` falls in the map: the entry at or above it and the one below.
 void map_bracket(const MapNode *map, float at, uint32_t *below, uint32_t *above);
+// Can the scene hold it?
+bool pattern_is_modelled(const PatternNode *pattern);
 // The pattern and its warps as the scene has them; only its warps.
 void emit_pattern(Emitter *e, const PatternNode *node, Pattern *pattern);
 void emit_warps(Emitter *e, const PatternNode *node, Pattern *pattern);

@@ -34,6 +34,7 @@ static bool uses_slopes(PatternType type) {
     switch (type) {
     case PATTERN_AVERAGE:
     case PATTERN_BUMPS:
+    case PATTERN_BUMP_MAP:
     case PATTERN_DENTS:
     case PATTERN_FACETS:
     case PATTERN_QUILTED:
@@ -48,7 +49,7 @@ static bool uses_slopes(PatternType type) {
 
 static Normal build_normal(Emitter *e, const PatternNode *node, bool no_bump_scale) {
     Normal normal = normal_default();
-    if (node->info->type == PATTERN_MODELLED) {
+    if (!pattern_is_modelled(node)) {
         emit_gap(e, node->loc,
                  arena_printf(e->cv->arena,
                               "a normal with '%s' is not modelled: the surface is smooth",

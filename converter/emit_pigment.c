@@ -110,9 +110,23 @@ static void copy_shape(const Pattern *shape, Pattern *pattern) {
     }
 }
 
+bool pattern_is_modelled(const PatternNode *node) {
+    return node->info->type != PATTERN_MODELLED && !(node->picture && !node->picture->path);
+}
+
+static uint32_t emit_picture(Emitter *e, const Picture *picture) {
+    for (size_t i = 0; i < e->pictures.count; i++)
+        if (picture_equal(&e->pictures.items[i], picture))
+            return (uint32_t)i;
+    array_push(&e->pictures, *picture);
+    return (uint32_t)(e->pictures.count - 1);
+}
+
 void emit_pattern(Emitter *e, const PatternNode *node, Pattern *pattern) {
     *pattern = pattern_default();
     pattern->type = node->info->type;
+    if (pattern->type >= PATTERN_IMAGE && pattern->type <= PATTERN_MATERIAL_MAP)
+        pattern->picture = emit_picture(e, node->picture);
     copy_shape(&node->shape, pattern);
     emit_warps(e, node, pattern);
 }
@@ -122,6 +136,7 @@ uint64_t pattern_hash(uint64_t hash, const Pattern *p) {
     hash = pool_hash(hash, &p->wave, sizeof p->wave);
     const float numbers[] = {p->frequency, p->phase, p->exponent};
     hash = pool_hash(hash, numbers, sizeof numbers);
+    hash = pool_hash(hash, &p->picture, sizeof p->picture);
     hash = pool_hash(hash, &p->turbulence.amount, sizeof p->turbulence.amount);
     for (uint32_t i = 0; i < p->warp_count; i++)
         if (p->warps[i].type == WARP_TRANSFORM)
@@ -150,7 +165,7 @@ static void copy_entries(Emitter *e, const PatternNode *node, Pigment *pigment) 
 static const char *pattern_text(Emitter *e, const PatternNode *node) {
     return arena_printf(e->cv->arena,
                         node->info->keyword == KW_image_map
-                            ? "%s is not modelled: a plain grey is shown instead of the picture"
+                            ? "%s of a function is not modelled: a plain grey is shown instead"
                             : "the pattern '%s' is not modelled: one colour is shown, the middle "
                               "of its map",
                         keyword_name(node->info->keyword));
@@ -166,13 +181,14 @@ static void build_pigment(Emitter *e, const PatternNode *node, Pigment *pigment)
         pigment->color = node->color;
         return;
     }
-    if (node->info->type == PATTERN_MODELLED) {
+    if (!pattern_is_modelled(node)) {
         emit_gap(e, node->loc, pattern_text(e, node));
         pigment->color = middle_color(e, node);
         return;
     }
     emit_pattern(e, node, &pigment->pattern);
-    copy_entries(e, node, pigment);
+    if (pigment->pattern.type != PATTERN_IMAGE_MAP)
+        copy_entries(e, node, pigment);
 }
 
 // Field by field, since the padding of a struct may hold anything. What is left out here is rarely

@@ -105,7 +105,7 @@ static uint32_t emit_flagged(Emitter *e, const TextureNode *node, bool no_bump_s
     if (texture_is_plain(node)) {
         build_layers(e, node, no_bump_scale, &texture);
         index = store_texture(e, &texture);
-    } else if (info->type == PATTERN_MODELLED && info->keyword != KW_uv_mapping) {
+    } else if (info->keyword != KW_uv_mapping && !pattern_is_modelled(&node->pattern)) {
         index = emit_flagged(e, middle_texture(e, node), no_bump_scale);
     } else {
         texture.no_bump_scale = no_bump_scale || node->no_bump_scale || node->pattern.no_bump_scale;

@@ -90,8 +90,9 @@ typedef struct PatternNode {
     const Loc *loc; // of the keyword, if the pattern is not modelled
     Pattern shape;  // all but the type and the warps
     const WarpNode *warps;
-    const MapNode *map; // NULL: the default one. uv_mapping: one item, the rest of the block
-    Color color;        // one colour
+    const MapNode *map;     // NULL: the default one. uv_mapping: one item, the rest of the block
+    const Picture *picture; // of the patterns that have one
+    Color color;            // one colour
     bool has_quick_color;
     Color quick_color;
     float amount, accuracy; // normal: depth, and how far the pattern is looked at around the point
@@ -117,9 +118,11 @@ const MapNode *parse_map(Converter *cv, MapKind kind, bool average);
 const MapNode *parse_pattern_list(Converter *cv, PatternUse use, const PatternInfo *info);
 const MapNode *map_default(Converter *cv, const PatternInfo *info);
 // The block of image_map, bump_map, image_pattern; what height_field and material_map begin with.
-void parse_image_block(Converter *cv, const char *where);
-void parse_image(Converter *cv);
-void parse_image_options(Converter *cv);
+// amount: what bump_size sets. The picture has no path when a function makes it.
+const Picture *parse_image_block(Converter *cv, int keyword, float *amount);
+// to_working: its colours are meant, not numbers.
+void parse_image(Converter *cv, Picture *picture, bool to_working);
+void parse_image_options(Converter *cv, Picture *picture, float *amount); // amount may be NULL
 
 // ---- textures: texture.c, finish.c, interior.c
 // ---------------------------------------------------

@@ -17,7 +17,7 @@ static const PatternInfo patterns[] = {
     {.keyword = KW_boxed, .type = PATTERN_BOXED},
     {.keyword = KW_bozo, .type = PATTERN_BOZO},
     {.keyword = KW_brick, .type = PATTERN_BRICK, .list = 2, .still = true},
-    {.keyword = KW_bump_map, .type = OTHER, .still = true},
+    {.keyword = KW_bump_map, .type = PATTERN_BUMP_MAP, .still = true},
     {.keyword = KW_bumps, .type = PATTERN_BOZO},
     {.keyword = KW_cells, .type = PATTERN_CELLS},
     {.keyword = KW_checker, .type = PATTERN_CHECKER, .list = 2, .still = true},
@@ -31,14 +31,14 @@ static const PatternInfo patterns[] = {
     {.keyword = KW_gradient, .type = PATTERN_GRADIENT},
     {.keyword = KW_granite, .type = PATTERN_GRANITE},
     {.keyword = KW_hexagon, .type = PATTERN_HEXAGON, .list = 3, .still = true},
-    {.keyword = KW_image_map, .type = OTHER, .still = true},
-    {.keyword = KW_image_pattern, .type = OTHER, .still = true},
+    {.keyword = KW_image_map, .type = PATTERN_IMAGE_MAP, .still = true},
+    {.keyword = KW_image_pattern, .type = PATTERN_IMAGE, .still = true},
     {.keyword = KW_julia, .type = OTHER},
     {.keyword = KW_leopard, .type = PATTERN_LEOPARD},
     {.keyword = KW_magnet, .type = OTHER},
     {.keyword = KW_mandel, .type = OTHER},
     {.keyword = KW_marble, .type = PATTERN_MARBLE, .triangle = true},
-    {.keyword = KW_material_map, .type = OTHER, .still = true},
+    {.keyword = KW_material_map, .type = PATTERN_MATERIAL_MAP, .still = true},
     {.keyword = KW_object, .type = OTHER, .list = 2, .still = true},
     {.keyword = KW_onion, .type = PATTERN_ONION},
     {.keyword = KW_pavement, .type = OTHER},
@@ -347,6 +347,7 @@ static void begin_pattern(PatternNode *pattern, const PatternInfo *info) {
     Pattern *shape = &pattern->shape;
     bool brick = info->type == PATTERN_BRICK && pattern->info->type == PATTERN_BRICK;
     pattern->info = info;
+    pattern->picture = NULL;
     if (info->triangle)
         shape->wave = WAVE_TRIANGLE;
     if (info->still)
@@ -378,8 +379,7 @@ void parse_pattern(Converter *cv, PatternUse use, PatternNode *pattern) {
     } else if (info && pattern_fits(use, token->code)) {
         next_token(cv);
         begin_pattern(pattern, info);
-        bool modelled = info->type != PATTERN_MODELLED && use != USE_TEXTURE;
-        pattern->loc = modelled ? NULL : keep_place(cv, token);
+        pattern->loc = keep_place(cv, token);
         if (info->keyword == KW_uv_mapping)
             parse_uv_mapping(cv, use, pattern);
         else

@@ -71,23 +71,29 @@ static void parse_object_pattern(Converter *cv, PatternUse use, PatternNode *pat
     expect(cv, '}', "object pattern");
 }
 
-// material_map { IMAGE options texture{}+ }: the first texture is kept.
+// material_map { IMAGE options texture{}+ }
 static void parse_material_map(Converter *cv, PatternNode *pattern) {
-    MapItem *item = ARENA_NEW(cv->arena, MapItem);
-    MapNode *map = ARENA_NEW(cv->arena, MapNode);
+    ARRAY(const TextureNode *) textures = {0};
+    Picture picture;
     expect(cv, '{', "material_map");
-    parse_image(cv);
-    parse_image_options(cv);
+    parse_image(cv, &picture, false);
+    parse_image_options(cv, &picture, NULL);
+    picture.use = USE_PICTURE_INDEX;
     while (accept(cv, KW_texture)) {
         const TextureNode *texture = parse_texture_block(cv);
-        if (!item->node)
-            item->node = texture;
+        array_push(&textures, texture);
     }
-    if (!item->node)
+    if (textures.count == 0)
         die_expected(cv, "'texture'");
     expect(cv, '}', "material_map");
-    *map = (MapNode){.kind = MAP_TEXTURE, .items = item, .count = 1};
+    MapItem *items = ARENA_ARRAY(cv->arena, MapItem, textures.count);
+    for (size_t i = 0; i < textures.count; i++)
+        items[i].node = textures.items[i];
+    MapNode *map = ARENA_NEW(cv->arena, MapNode);
+    *map = (MapNode){.kind = MAP_TEXTURE, .items = items, .count = (uint32_t)textures.count};
+    array_free(&textures);
     pattern->map = map;
+    pattern->picture = arena_copy(cv->arena, &picture, sizeof picture);
 }
 
 // tiles { texture{} tile2 texture{} }: a checker whose first texture stands at 1.
@@ -117,7 +123,7 @@ static void parse_body_pattern(Converter *cv, PatternUse use, PatternNode *patte
     case KW_image_map:
     case KW_bump_map:
     case KW_image_pattern:
-        parse_image_block(cv, keyword_name(pattern->info->keyword));
+        pattern->picture = parse_image_block(cv, pattern->info->keyword, &pattern->amount);
         break;
     case KW_material_map:
         parse_material_map(cv, pattern);

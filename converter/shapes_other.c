@@ -345,7 +345,8 @@ static void parse_quadric(Converter *cv, ObjectNode *object) {
 
 static void parse_height_field(Converter *cv, ObjectNode *object) {
     (void)object;
-    parse_image(cv);
+    Picture picture;
+    parse_image(cv, &picture, false);
     for (;;) {
         if (accept(cv, KW_water_level))
             parse_float(cv);

@@ -150,6 +150,7 @@ static Transform random_transform(Rng *rng) {
     X(double, pattern.crackle.metric)                                                              \
     X(double, pattern.crackle.offset)                                                              \
     X(bool, pattern.crackle.solid)                                                                 \
+    X(uint32_t, pattern.picture)                                                                   \
     X(FacetsShape, pattern.facets)                                                                 \
     X(bool, pattern.has_turbulence)                                                                \
     TURBULENCE_MEMBERS(X, pattern.turbulence)                                                      \
@@ -357,11 +358,43 @@ static void make_pattern_shape(Rng *rng, Pattern *p) {
     p->facets = (FacetsShape){random_double(rng), random_double(rng), random_double(rng)};
 }
 
+enum { PICTURES = 3 };
+
+static Picture make_picture(Rng *rng, Arena *arena) {
+    Picture p = picture_default();
+    // Absolute: those stay as they are, whatever folder the scene file is in.
+    p.path = arena_printf(arena, "/pictures/a \"%u\".png", random_below(rng, 99));
+    p.type = (PictureType)random_below(rng, PICTURE_HDR + 1);
+    p.decode = (PictureDecode)random_below(rng, DECODE_SRGB + 1);
+    p.gamma = (float)rng_range(rng, 0.1, 3);
+    p.to_working = random_bool(rng);
+    p.layout = (PictureLayout)random_below(rng, LAYOUT_TORUS + 1);
+    p.between = (PictureBetween)random_below(rng, BETWEEN_NORMALIZED + 1);
+    p.use = (PictureUse)random_below(rng, USE_PICTURE_ALPHA + 1);
+    p.once = random_bool(rng);
+    p.repeat = (Vec2){rng_range(rng, 0.1, 3), rng_range(rng, 0.1, 3)};
+    p.offset = (Vec2){random_double(rng), random_double(rng)};
+    p.has_filter = random_bool(rng);
+    p.filter = p.has_filter ? random_float(rng) : 0;
+    p.has_transmit = random_bool(rng);
+    p.transmit = p.has_transmit ? random_float(rng) : 0;
+    p.change_count = random_below(rng, 3);
+    p.changes = ARENA_ARRAY(arena, PaletteChange, p.change_count);
+    for (uint32_t i = 0; i < p.change_count; i++) {
+        p.changes[i].place = (int)random_below(rng, 256);
+        p.changes[i].transmit = random_bool(rng);
+        p.changes[i].value = random_float(rng);
+    }
+    return p;
+}
+
 static Pattern make_pattern(Rng *rng, Arena *arena) {
     Pattern p = pattern_default();
     do
         p.type = (PatternType)random_below(rng, PATTERN_MODELLED);
-    while (p.type == PATTERN_BUMPS || p.type == PATTERN_FACETS); // of normals only
+    while (p.type >= PATTERN_BUMPS && p.type != PATTERN_IMAGE); // of one kind of record only
+    if (p.type == PATTERN_IMAGE || random_bool(rng))
+        p.picture = random_below(rng, PICTURES);
     p.wave = (WaveType)random_below(rng, 6);
     p.frequency = random_float(rng);
     p.phase = random_float(rng);
@@ -383,7 +416,9 @@ static Pattern make_pattern(Rng *rng, Arena *arena) {
 static Pigment make_pigment(Rng *rng, Arena *arena, uint32_t index) {
     Pigment p = {.pattern = make_pattern(rng, arena), .uv_mapping = random_bool(rng)};
     p.color = random_color(rng);
-    if (p.pattern.type != PATTERN_PLAIN)
+    if (p.pattern.picture != NO_INDEX && random_bool(rng))
+        p.pattern.type = PATTERN_IMAGE_MAP;
+    if (p.pattern.type != PATTERN_PLAIN && p.pattern.type != PATTERN_IMAGE_MAP)
         p.entry_count = 6 + random_below(rng, 3); // enough for any list pattern
     p.entries = ARENA_ARRAY(arena, MapEntry, p.entry_count);
     for (uint32_t i = 0; i < p.entry_count; i++) {
@@ -434,6 +469,8 @@ static Normal make_normal(Rng *rng, Arena *arena, uint32_t index) {
     Normal n = {.pattern = make_pattern(rng, arena), .uv_mapping = random_bool(rng)};
     if (n.pattern.type == PATTERN_PLAIN || (index == 0 && n.pattern.type == PATTERN_AVERAGE))
         n.pattern.type = random_bool(rng) ? PATTERN_BUMPS : PATTERN_FACETS;
+    if (n.pattern.picture != NO_INDEX && n.pattern.type != PATTERN_AVERAGE && random_bool(rng))
+        n.pattern.type = PATTERN_BUMP_MAP;
     n.amount = random_float(rng);
     n.accuracy = (float)rng_range(rng, 0.001, 1);
     n.no_bump_scale = random_bool(rng);
@@ -455,6 +492,8 @@ static Texture make_texture(Rng *rng, Arena *arena, const Scene *scene, uint32_t
     if (index > 0 && random_bool(rng)) {
         t.pattern = make_pattern(rng, arena);
         t.entry_count = 6;
+        if (t.pattern.picture != NO_INDEX && random_bool(rng))
+            t.pattern.type = PATTERN_MATERIAL_MAP;
         if (t.pattern.type == PATTERN_PLAIN)
             t.entry_count = t.uv_mapping = 1;
         t.entries = make_entries(rng, arena, t.pattern.type, index, t.entry_count);
@@ -657,6 +696,10 @@ Scene *random_scene(Rng *rng, Arena *arena) {
         scene->lights[i] = make_light(rng);
     for (uint32_t i = 0; i < scene->pigment_count; i++)
         scene->pigments[i] = make_pigment(rng, arena, i);
+    scene->picture_count = PICTURES;
+    scene->pictures = ARENA_ARRAY(arena, Picture, PICTURES);
+    for (uint32_t i = 0; i < PICTURES; i++)
+        scene->pictures[i] = make_picture(rng, arena);
     scene->normal_count = 1 + random_below(rng, 5);
     scene->normals = ARENA_ARRAY(arena, Normal, scene->normal_count);
     for (uint32_t i = 0; i < scene->normal_count; i++)
@@ -778,6 +821,35 @@ static const char *texture_difference(const Texture *a, const Texture *b) {
     return NULL;
 }
 
+static const char *change_difference(const PaletteChange *a, const PaletteChange *b) {
+    COMPARE(int, place)
+    COMPARE(bool, transmit)
+    COMPARE(float, value)
+    return NULL;
+}
+
+static const char *picture_difference(const Picture *a, const Picture *b) {
+    if (strcmp(a->path, b->path) != 0)
+        return "path";
+    COMPARE(PictureType, type)
+    COMPARE(PictureDecode, decode)
+    COMPARE(float, gamma)
+    COMPARE(bool, to_working)
+    COMPARE(PictureLayout, layout)
+    COMPARE(PictureBetween, between)
+    COMPARE(PictureUse, use)
+    COMPARE(bool, once)
+    COMPARE(Vec2, repeat)
+    COMPARE(Vec2, offset)
+    COMPARE(bool, has_filter)
+    COMPARE(float, filter)
+    COMPARE(bool, has_transmit)
+    COMPARE(float, transmit)
+    COMPARE(uint32_t, change_count)
+    COMPARE_EACH(changes, change_count, change_difference)
+    return NULL;
+}
+
 static const char *slope_difference(const SlopeEntry *a, const SlopeEntry *b) {
     COMPARE(float, value)
     COMPARE(double, height)
@@ -890,6 +962,7 @@ const char *scene_difference(const Scene *a, const Scene *b) {
     COMPARE(uint32_t, rainbow_count)
     COMPARE(uint32_t, light_count)
     COMPARE(uint32_t, pigment_count)
+    COMPARE(uint32_t, picture_count)
     COMPARE(uint32_t, normal_count)
     COMPARE(uint32_t, texture_count)
     COMPARE(uint32_t, interior_count)
@@ -913,6 +986,7 @@ const char *scene_difference(const Scene *a, const Scene *b) {
     COMPARE_EACH(rainbows, rainbow_count, rainbow_difference)
     COMPARE_EACH(lights, light_count, light_difference)
     COMPARE_EACH(pigments, pigment_count, pigment_difference)
+    COMPARE_EACH(pictures, picture_count, picture_difference)
     COMPARE_EACH(normals, normal_count, normal_difference)
     COMPARE_EACH(textures, texture_count, texture_difference)
     COMPARE_EACH(interiors, interior_count, interior_difference)

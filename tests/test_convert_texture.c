@@ -247,7 +247,6 @@ static void middle_colors(void **state) {
     assert_warns("sphere { 0, 1 pigment { tiling 3 } }", "the pattern 'tiling' is not modelled");
     assert_warns("sphere { 0, 1 texture { tiling 1 texture_map { [0 pigment { rgb 1 }] } } }",
                  "a texture with 'tiling'");
-    assert_warns("sphere { 0, 1 pigment { image_map { png \"none.png\" once } } }", "grey");
     assert_warns("sphere { 0, 1 pigment { rgb 1 } normal { tiling 3 } }", "a normal with 'tiling'");
     assert_silent("sphere { 0, 1 pigment { rgb 1 } normal { bumps 0.5 } }");
 }

@@ -11,6 +11,7 @@
 
 #include "base/diag.h"
 #include "base/file.h"
+#include "model/file_path.h"
 #include "model/json_layout.h"
 #include "model/scene.h"
 #include "random_scene.h"
@@ -117,6 +118,8 @@ static void test_comparison_sees(void **state) {
     arena_destroy(arena);
 }
 
+// Files are named from where the scene file stands.
+// Files are named from where the scene file stands.
 static void test_numbers(void **state) {
     (void)state;
     Rng rng = {1};
@@ -167,6 +170,47 @@ static Scene *small_scene(Arena *arena, uint32_t patches) {
     }
     scene_collect_requires(scene, arena);
     return scene;
+}
+
+// Maps that share their entries: 40 records of 2 entries each are 2^40 evaluations of a point, and
+// a small file. They are refused.
+static void test_shared_maps(void **state) {
+    (void)state;
+    Arena *arena = arena_create();
+    Scene *scene = small_scene(arena, 1);
+    enum { DEPTH = 40 };
+    scene->normals = ARENA_ARRAY(arena, Normal, DEPTH);
+    scene->normal_count = DEPTH;
+    for (uint32_t i = 0; i < DEPTH; i++) {
+        Normal *normal = &scene->normals[i];
+        *normal = normal_default();
+        normal->pattern.type = i == 0 ? PATTERN_BUMPS : PATTERN_BOZO;
+        normal->entry_count = i == 0 ? 0 : 2;
+        normal->entries = ARENA_ARRAY(arena, IndexEntry, 2);
+        for (uint32_t k = 0; k < normal->entry_count; k++)
+            normal->entries[k] = (IndexEntry){(float)k, i - 1};
+    }
+    Job job = {.arena = arena, .scene = scene};
+    char *message = NULL;
+    assert_false(diag_catch(run_validate, &job, &message));
+    assert_non_null(strstr(message, "evaluations at each point"));
+    free(message);
+    scene->normal_count = 12;
+    run_validate(&job);
+    arena_destroy(arena);
+}
+
+static void test_paths(void **state) {
+    (void)state;
+    Arena *arena = arena_create();
+    assert_string_equal(path_from_file(arena, "a/b.png", "a/c/x.json"), "../b.png");
+    assert_string_equal(path_from_file(arena, "b.png", "x.json"), "b.png");
+    assert_string_equal(path_from_file(arena, "./d/../e/b.png", "e/x.json"), "b.png");
+    assert_string_equal(path_from_file(arena, "/a/b.png", "c/x.json"), "/a/b.png");
+    assert_string_equal(path_beside_file(arena, "../b.png", "a/c/x.json"), "a/c/../b.png");
+    assert_string_equal(path_beside_file(arena, "b.png", "x.json"), "b.png");
+    assert_string_equal(path_beside_file(arena, "/b.png", "a/x.json"), "/b.png");
+    arena_destroy(arena);
 }
 
 static void test_layout(void **state) {
@@ -386,6 +430,18 @@ static const struct {
     {WARP("\"type\": \"planar\", \"orientation\": [0, 2, 0]"),
      "pigments[0].warps[0].orientation: its length is 2 instead of 1"},
     {HEAD PIGMENTS "\"textures\": [{}]}", "textures[0]: it has no layers"},
+    {HEAD "\"pictures\": [{\"path\": \"\"}]}", "pictures[0].path: it is empty"},
+    {HEAD "\"pictures\": [{}]}", "pictures[0]: 'path' is missing"},
+    {HEAD "\"pigments\": [{\"type\": \"image_map\"}]}", "pigments[0].picture"},
+    {HEAD "\"pigments\": [{\"type\": \"bumps\"}]}", "this pattern is for normals only"},
+    {HEAD "\"normals\": [{\"type\": \"bumps\", \"map\": [{\"value\": 0, \"normal\": 0}]}]}",
+     "normal 0 is part of itself"},
+    {HEAD "\"normals\": [{\"type\": \"plain\"}]}", "normals[0].type: a normal needs a pattern"},
+    {HEAD "\"normals\": [{\"type\": \"average\"}]}", "normals[0].map"},
+    {HEAD "\"normals\": [{\"type\": \"bozo\", \"accuracy\": 0}]}", "0 has no reciprocal"},
+    {HEAD "\"textures\": [{\"type\": \"bozo\", \"map\": [{\"value\": 0, \"texture\": 0}]}]}",
+     "texture 0 is part of itself"},
+    {HEAD "\"textures\": [{\"type\": \"checker\", \"map\": []}]}", "textures[0].map: it is empty"},
     {HEAD PIGMENTS
      "\"textures\": [{\"layers\": [{\"pigment\": 0, \"finish\": {\"roughness\": 0}}]}]}",
      "textures[0].layers[0].finish.roughness: 0 has no reciprocal"},
@@ -636,7 +692,8 @@ static void test_hostile(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_round_trip_text), cmocka_unit_test(test_round_trip_binary),
-        cmocka_unit_test(test_comparison_sees), cmocka_unit_test(test_numbers),
+        cmocka_unit_test(test_comparison_sees), cmocka_unit_test(test_shared_maps),
+        cmocka_unit_test(test_paths),           cmocka_unit_test(test_numbers),
         cmocka_unit_test(test_layout),          cmocka_unit_test(test_pattern_layout),
         cmocka_unit_test(test_many_patches),    cmocka_unit_test(test_deep_unions),
         cmocka_unit_test(test_unwritable),      cmocka_unit_test(test_refused),

@@ -507,20 +507,21 @@ static void opacity(void **state) {
                            {.layers = layers, .layer_count = 2}};
     Scene scene = scene_of(pigments, 3);
     scene.textures = textures, scene.texture_count = 2;
-    assert_false(pigment_is_opaque(&scene, 0));
-    assert_false(pigment_is_opaque(&scene, 1));
-    assert_true(pigment_is_opaque(&scene, 2));
-    assert_false(texture_is_opaque(&scene, 0));
-    assert_true(texture_is_opaque(&scene, 1));
-    assert_true(texture_is_opaque(&scene, NO_INDEX));
+    const Textures textures_of_scene = {.scene = &scene};
+    assert_false(pigment_is_opaque(&textures_of_scene, 0));
+    assert_false(pigment_is_opaque(&textures_of_scene, 1));
+    assert_true(pigment_is_opaque(&textures_of_scene, 2));
+    assert_false(texture_is_opaque(&textures_of_scene, 0));
+    assert_true(texture_is_opaque(&textures_of_scene, 1));
+    assert_true(texture_is_opaque(&textures_of_scene, NO_INDEX));
     IndexEntry mixed[2] = {{0.0f, 0}, {1.0f, 1}}, solid[2] = {{0.0f, 1}, {1.0f, 1}};
     Texture maps[4] = {textures[0],
                        textures[1],
                        {.pattern = gradient(1, 0, 0), .entries = mixed, .entry_count = 2},
                        {.pattern = gradient(1, 0, 0), .entries = solid, .entry_count = 2}};
     scene.textures = maps, scene.texture_count = 4;
-    assert_false(texture_is_opaque(&scene, 2));
-    assert_true(texture_is_opaque(&scene, 3));
+    assert_false(texture_is_opaque(&textures_of_scene, 2));
+    assert_true(texture_is_opaque(&textures_of_scene, 3));
 }
 
 int main(void) {

@@ -11,42 +11,13 @@
 
 #include <cmocka.h>
 
-#include "base/array.h"
-#include "base/diag.h"
-#include "base/file.h"
-#include "converter/convert.h"
-#include "reference.h"
-#include "render/render.h"
-
-#include <stdio.h>
-#include <string.h>
-#include <unistd.h>
-
-// At most so many percent of the pixels may be off by more than a step of 8 bits. One of 1728
-// pixels is 0.06 %.
-static const double MOST_PERCENT = 0.5;
-static const char SIZE[] = "+W48 +H36 +FN16 File_Gamma=1.0 -A";
-
-static const char HEAD[] = "#version 3.7; global_settings { assumed_gamma 1 }\n"
-                           "camera { location <0.3,0.6,-6> look_at 0 angle 42 }\n"
-                           "light_source { <-5,8,-9> rgb 0.9 }\n"
-                           "light_source { <7,-3,-8> rgb 0.3 shadowless }\n";
-static const char PATCH[] = "bicubic_patch { type 1 flatness 0 u_steps 4 v_steps 4\n"
-                            "<-3.1,-2.3,0>, <-1.1,-2.6,-1.2>, <0.9,-2.4,1.1>, <3.2,-2.2,0.3>,\n"
-                            "<-3.3,-0.8,1.3>, <-1,-0.7,-2.4>, <1.1,-0.9,0.9>, <3.1,-0.8,-0.7>,\n"
-                            "<-3.2,0.9,-0.4>, <-0.9,0.8,1.9>, <1,0.7,-1.8>, <3.3,0.9,1.1>,\n"
-                            "<-3,2.4,0.6>, <-1.1,2.3,-0.9>, <0.8,2.5,0.7>, <3.1,2.3,-0.8>\n";
-
-typedef struct {
-    const char *include; // a file name, or ""
-    const char *text;    // what stands in the patch
-} Row;
+#include "texture_rows.h"
 
 #define P(text)                                                                                    \
     { "", "pigment { " text " }" }
 #define MAP " color_map { [0 rgb <0.9,0.1,0>] [0.3 rgb <0.1,0.8,0.2>] [0.7 rgb 1] [1 rgb 0.05] } "
 
-static const Row PATTERNS[] = {
+static const TextureRow PATTERNS[] = {
     P("agate agate_turb 0.7 scale 0.8"),
     P("agate" MAP "turbulence <0.3,0.1,0.5> octaves 4 lambda 2.5 omega 0.4"),
     P("average pigment_map { [1 bozo scale 0.4] [2.5 gradient y" MAP "] } rotate 20*z"),
@@ -90,7 +61,7 @@ static const Row PATTERNS[] = {
     P("wrinkles scale 0.7" MAP),
 };
 
-static const Row WARPS[] = {
+static const TextureRow WARPS[] = {
     P("gradient x" MAP "scale 0.5 warp { repeat 1.1*y offset <0.2,0,0> flip x }"),
     P("radial warp { repeat 1.3*x flip <1,1,0> } warp { repeat 0.9*y } translate 0.2 rotate 7*z"),
     P("checker rgb 0 rgb 1 scale 0.3 warp { black_hole <0.4,0.1,0>, 1.6 strength 1.5 falloff 3 }"),
@@ -115,7 +86,7 @@ static const Row WARPS[] = {
 #define N(text)                                                                                    \
     { "", "pigment { rgb <0.9,0.8,0.6> } finish { phong 0.5 specular 0.3 } normal { " text " }" }
 
-static const Row NORMALS[] = {
+static const TextureRow NORMALS[] = {
     N("bumps 0.6 scale 0.3"),
     N("bumps scale <0.2,0.5,0.1> rotate 20 turbulence 0.4 bump_size 0.8"),
     N("dents 0.9 scale 0.2 noise_generator 3"),
@@ -170,7 +141,7 @@ static const Row NORMALS[] = {
          "bumps 0.3 scale 0.5 } } plane { z, 4 pigment { checker rgb 1 rgb x }"},
 };
 
-static const Row TEXTURES[] = {
+static const TextureRow TEXTURES[] = {
     {"", "texture { gradient y texture_map { [0.2 pigment { rgb x } finish { phong 1 } ] [0.7 "
          "pigment { checker scale 0.2 } normal { bumps 0.6 scale 0.2 }] } scale 1.3 rotate 20 }"},
     {"", "texture { checker texture { pigment { rgb x } } texture { pigment { bozo } normal { "
@@ -215,7 +186,7 @@ static const Row TEXTURES[] = {
     { file, "texture { " name " " more " }" }
 
 // Those with crand get their grain from a generator that POV-Ray steps on from pixel to pixel.
-static const Row INCLUDES[] = {
+static const TextureRow INCLUDES[] = {
     T("textures.inc", "Jade", "scale 0.7"),
     T("textures.inc", "White_Marble", "scale 0.5"),
     T("textures.inc", "Blood_Marble", ""),
@@ -256,7 +227,7 @@ static const Row INCLUDES[] = {
             "object { " SHEET(-2, CLEAR "interior { ior 1.4 }") "}\n" text                         \
     }
 
-static const Row INTERIORS[] = {
+static const TextureRow INTERIORS[] = {
     SCENE("union { " FRONT BACK),
     SCENE("union { union { " FRONT SHEET(-2.4, CLEAR) "}" BACK),
     SCENE(FRONT "object { " BACK),
@@ -264,108 +235,34 @@ static const Row INTERIORS[] = {
     SCENE("union { " FRONT BACK "interior { ior 1.3 }"),
 };
 
-static const char *scene_text(Arena *arena, const Row *row) {
-    const char *include = "";
-    if (row->include[0])
-        include = arena_printf(arena, "#include \"colors.inc\"\n#include \"%s\"\n", row->include);
-    return arena_printf(arena, "%s%s%s%s }\n", HEAD, include, PATCH, row->text);
-}
-
-static Image *render_ours(Arena *arena, const char *text) {
-    char path[] = "/tmp/qipov-test-XXXXXX.pov";
-    int file = mkstemps(path, 4);
-    assert_true(file >= 0);
-    assert_int_equal(write(file, text, strlen(text)), strlen(text));
-    close(file);
-    char *line =
-        arena_printf(arena, "+I%s +L/usr/share/povray-3.7/include --method facets %s", path, SIZE);
-    char *words[16] = {arena_strdup(arena, "qirender")}, *save = NULL;
-    int count = 1;
-    for (char *w = strtok_r(line, " ", &save); w; w = strtok_r(NULL, " ", &save))
-        words[count++] = w;
-    RenderOptions options = options_default();
-    assert_true(options_parse(PROGRAM_QIRENDER, count, words, arena, &options));
-    options.verbose = false;
-    render_check(&options);
-    ImageWriteOptions written;
-    RenderStats stats;
-    Image *image = render_scene(convert_scene(&options, arena), &options, arena, &written, &stats);
-    unlink(path);
-    return image;
-}
-
-// How far apart the darkest and the lightest value of the picture are.
-static float contrast(const Image *image) {
-    float low = 1, high = 0;
-    for (int i = 0; i < image->width * image->height * image->channels; i++) {
-        low = image->pixels[i] < low ? image->pixels[i] : low;
-        high = image->pixels[i] > high ? image->pixels[i] : high;
-    }
-    return high - low;
-}
-
-// All of POV-Ray's pictures are made while ours are.
-static void check_rows(const Row *rows, size_t count) {
-    if (!reference_available()) {
-        print_message("skipped: povray is not installed\n");
-        skip();
-    }
-    Arena *arena = arena_create();
-    Reference **theirs = ARENA_ARRAY(arena, Reference *, count);
-    size_t bad = 0;
-    enum { AHEAD = 4 };
-    for (size_t i = 0; i < count + AHEAD; i++) {
-        if (i < count)
-            theirs[i] = reference_begin(arena, scene_text(arena, &rows[i]),
-                                        arena_printf(arena, "%s +WT1", SIZE));
-        if (i < AHEAD)
-            continue;
-        const Row *row = &rows[i - AHEAD];
-        size_t warnings = diag_warning_count();
-        Image *ours = render_ours(arena, scene_text(arena, row));
-        ImageDifference d =
-            image_compare(ours, reference_end(theirs[i - AHEAD]), 1.0 / 255, 1.0 / 255);
-        double percent = 100.0 * (double)d.failed / (double)d.pixels;
-        bool something = contrast(ours) > 0.15f; // to compare
-        bool good = something && percent <= MOST_PERCENT && diag_warning_count() == warnings;
-        bad += !good;
-        if (!good || getenv("SHOW_FIGURES"))
-            print_message("%5.2f %% off, at most %.4f of %.2f; %zu warnings: %s %.90s\n", percent,
-                          d.max, (double)contrast(ours), diag_warning_count() - warnings,
-                          row->include, row->text);
-    }
-    arena_destroy(arena);
-    assert_int_equal(bad, 0);
-}
-
 static void patterns(void **state) {
     (void)state;
-    check_rows(PATTERNS, sizeof PATTERNS / sizeof *PATTERNS);
+    texture_rows_check(PATTERNS, sizeof PATTERNS / sizeof *PATTERNS);
 }
 
 static void warps_and_maps(void **state) {
     (void)state;
-    check_rows(WARPS, sizeof WARPS / sizeof *WARPS);
+    texture_rows_check(WARPS, sizeof WARPS / sizeof *WARPS);
 }
 
 static void standard_textures(void **state) {
     (void)state;
-    check_rows(INCLUDES, sizeof INCLUDES / sizeof *INCLUDES);
+    texture_rows_check(INCLUDES, sizeof INCLUDES / sizeof *INCLUDES);
 }
 
 static void normals(void **state) {
     (void)state;
-    check_rows(NORMALS, sizeof NORMALS / sizeof *NORMALS);
+    texture_rows_check(NORMALS, sizeof NORMALS / sizeof *NORMALS);
 }
 
 static void patterned_textures(void **state) {
     (void)state;
-    check_rows(TEXTURES, sizeof TEXTURES / sizeof *TEXTURES);
+    texture_rows_check(TEXTURES, sizeof TEXTURES / sizeof *TEXTURES);
 }
 
 static void interiors(void **state) {
     (void)state;
-    check_rows(INTERIORS, sizeof INTERIORS / sizeof *INTERIORS);
+    texture_rows_check(INTERIORS, sizeof INTERIORS / sizeof *INTERIORS);
 }
 
 int main(void) {

@@ -4,6 +4,7 @@
 #include "model/scene_format.h"
 
 #include <math.h>
+#include <string.h>
 
 enum { MAX_OCTAVES = 10 }; // POV-Ray's own limit
 
@@ -98,6 +99,10 @@ static void check_pattern_shape(const Check *c, const FieldPath *path, const Pat
     check_numbers(c, &facets, "size", &pattern->facets.size, 1);
     check_numbers(c, &facets, "coords", &pattern->facets.coords, 1);
     check_numbers(c, &facets, "metric", &pattern->facets.metric, 1);
+    const FieldPath picture = path_field(path, "picture");
+    bool needs = pattern->type >= PATTERN_IMAGE && pattern->type <= PATTERN_MATERIAL_MAP;
+    if (needs || pattern->picture != NO_INDEX)
+        check_index(c, &picture, pattern->picture, c->scene->picture_count, "picture");
     for (int i = 0; i < 3; i++) {
         const FieldPath size = path_field(path, "brick_size");
         if (pattern->type == PATTERN_BRICK && vec_get(pattern->brick_size, i) == 0)
@@ -186,22 +191,67 @@ static void check_entry_count(const Check *c, const FieldPath *path, PatternType
         refuse(c, &map, "%u entries, but the pattern has %u values", count, least);
 }
 
-static bool only_bends(PatternType type) { return type == PATTERN_BUMPS || type == PATTERN_FACETS; }
+// Patterns that stand in one kind of record only: the kind, or NULL.
+static const char *only_in(PatternType type) {
+    switch (type) {
+    case PATTERN_BUMPS:
+    case PATTERN_FACETS:
+    case PATTERN_BUMP_MAP:
+        return "normal";
+    case PATTERN_IMAGE_MAP:
+        return "pigment";
+    case PATTERN_MATERIAL_MAP:
+        return "texture";
+    default:
+        return NULL;
+    }
+}
+
+static void check_place(const Check *c, const FieldPath *up, PatternType kind,
+                        const CheckPool *pool) {
+    const FieldPath type = path_field(up, "type");
+    const char *place = only_in(kind);
+    if (place && strcmp(place, pool->name) != 0)
+        refuse(c, &type, "this pattern is for %ss only", place);
+}
+
+static void check_picture(const Check *c, const FieldPath *path, const Picture *picture) {
+    const FieldPath repeat = path_field(path, "repeat"), file = path_field(path, "path");
+    if (!picture->path || !picture->path[0])
+        refuse(c, &file, "it is missing");
+    check_range(c, path, "type", (int)picture->type, PICTURE_PNG, PICTURE_HDR);
+    check_range(c, path, "decode", (int)picture->decode, DECODE_NONE, DECODE_SRGB);
+    check_range(c, path, "layout", (int)picture->layout, LAYOUT_PLANAR, LAYOUT_TORUS);
+    check_range(c, path, "interpolate", (int)picture->between, BETWEEN_NONE, BETWEEN_NORMALIZED);
+    check_range(c, path, "use", (int)picture->use, USE_PICTURE_COLOR, USE_PICTURE_ALPHA);
+    check_not_zero(c, path, "gamma", picture->gamma);
+    check_numbers(c, path, "offset", &picture->offset.u, 2);
+    check_numbers(c, path, "repeat", &picture->repeat.u, 2);
+    if (!(picture->repeat.u > 0 && picture->repeat.v > 0))
+        refuse(c, &repeat, "it is not positive");
+    check_float(c, path, "filter", picture->filter);
+    check_float(c, path, "transmit", picture->transmit);
+    for (uint32_t i = 0; i < picture->change_count; i++) {
+        const FieldPath item = path_item(path, "palette", i);
+        check_range(c, &item, "place", picture->changes[i].place, 0, 255);
+        check_float(c, &item, "value", picture->changes[i].value);
+    }
+}
 
 void check_pigment(const Check *c, const FieldPath *path, uint32_t index, int depth) {
     if (!enter_record(c, path, &c->pigments, index, depth))
         return;
     const Pigment *pigment = &c->scene->pigments[index];
-    const FieldPath type = path_field(path, "type"), map = path_field(path, "map");
+    const FieldPath map = path_field(path, "map");
     PatternType kind = pigment->pattern.type;
+    bool bare = kind == PATTERN_PLAIN || kind == PATTERN_IMAGE_MAP; // no map
     Cost cost = {.all = kind == PATTERN_AVERAGE};
     float weights = 0;
     check_pattern(c, path, &pigment->pattern);
     check_color(c, path, "color", pigment->color);
     check_color(c, path, "quick_color", pigment->quick_color);
-    if (only_bends(kind))
-        refuse(c, &type, "this pattern is for normals only");
-    if (kind == PATTERN_PLAIN && pigment->entry_count > 0)
+    check_place(c, path, kind, &c->pigments);
+    if (bare && pigment->entry_count > 0)
         refuse(c, &map, "a plain pigment has none");
     for (uint32_t i = 0; i < pigment->entry_count; i++) {
         const MapEntry *entry = &pigment->entries[i];
@@ -218,7 +268,7 @@ void check_pigment(const Check *c, const FieldPath *path, uint32_t index, int de
     }
     if (kind == PATTERN_AVERAGE)
         check_weights(c, path, weights);
-    if (kind != PATTERN_PLAIN)
+    if (!bare)
         check_entry_count(c, path, kind, pigment->entry_count);
     leave_record(c, path, &c->pigments, index, &cost);
 }
@@ -234,6 +284,7 @@ static void check_normal(const Check *c, const FieldPath *path, uint32_t index, 
     Cost cost = {.all = kind == PATTERN_AVERAGE};
     float weights = 0;
     check_pattern(c, path, &normal->pattern);
+    check_place(c, path, kind, &c->normals);
     if (kind == PATTERN_PLAIN)
         refuse(c, &type, "a normal needs a pattern");
     check_float(c, path, "amount", normal->amount);
@@ -303,13 +354,12 @@ static void check_texture(const Check *c, const FieldPath *path, uint32_t index,
     if (!enter_record(c, path, &c->textures, index, depth))
         return;
     const Texture *texture = &c->scene->textures[index];
-    const FieldPath type = path_field(path, "type"), map = path_field(path, "map");
+    const FieldPath map = path_field(path, "map");
     PatternType kind = texture->pattern.type;
     Cost cost = {.all = kind == PATTERN_AVERAGE};
     float weights = 0;
     check_pattern(c, path, &texture->pattern);
-    if (only_bends(kind))
-        refuse(c, &type, "this pattern is for normals only");
+    check_place(c, path, kind, &c->textures);
     if (kind == PATTERN_PLAIN && texture->layer_count == 0 && texture->entry_count == 0)
         refuse(c, path, "it has no layers");
     if (texture->layer_count > 0 && (kind != PATTERN_PLAIN || texture->entry_count > 0))
@@ -345,6 +395,10 @@ static void check_pool(const Check *c, const CheckPool *pool, const char *name,
 }
 
 void check_texture_pools(const Check *c) {
+    for (uint32_t i = 0; i < c->scene->picture_count; i++) {
+        const FieldPath path = path_item(NULL, "pictures", i);
+        check_picture(c, &path, &c->scene->pictures[i]);
+    }
     check_pool(c, &c->pigments, "pigments", check_pigment);
     check_pool(c, &c->normals, "normals", check_normal);
     check_pool(c, &c->textures, "textures", check_texture);

@@ -94,8 +94,11 @@ Pattern pattern_default(void) {
         .quilted = {1.0f, 1.0f},
         .crackle = {.form = {-1, 1, 0}, .metric = 2},
         .facets = {.size = 0.1, .metric = 2},
+        .picture = NO_INDEX,
     };
 }
+
+Picture picture_default(void) { return (Picture){.gamma = 1.0f, .repeat = {1, 1}}; }
 
 Normal normal_default(void) {
     return (Normal){.pattern = pattern_default(), .amount = 0.5f, .accuracy = 0.02f};
@@ -171,6 +174,7 @@ bool object_is_tree(const Object *object) {
     X(bozo)                                                                                        \
     X(brick)                                                                                       \
     X(brilliance)                                                                                  \
+    X(bump_map)                                                                                    \
     X(bumps)                                                                                       \
     X(caustics)                                                                                    \
     X(cells)                                                                                       \
@@ -197,6 +201,8 @@ bool object_is_tree(const Object *object) {
     X(granite)                                                                                     \
     X(hexagon)                                                                                     \
     X(hollow)                                                                                      \
+    X(image_map)                                                                                   \
+    X(image_pattern)                                                                               \
     X(interior_fade)                                                                               \
     X(interior_texture)                                                                            \
     X(intersection)                                                                                \
@@ -207,6 +213,7 @@ bool object_is_tree(const Object *object) {
     X(light_fade)                                                                                  \
     X(light_group)                                                                                 \
     X(marble)                                                                                      \
+    X(material_map)                                                                                \
     X(media_attenuation)                                                                           \
     X(merge)                                                                                       \
     X(metallic)                                                                                    \
@@ -289,13 +296,15 @@ static void need(FeatureSet *set, Feature feature, bool needed) { set->has[featu
 
 // ORDER pattern_type; a plain colour needs nothing.
 static const Feature PATTERN_FEATURES[] = {
-    FEATURE_COUNT,       FEATURE_checker,   FEATURE_gradient, FEATURE_agate,    FEATURE_boxed,
-    FEATURE_bozo,        FEATURE_brick,     FEATURE_cells,    FEATURE_crackle,  FEATURE_cubic,
-    FEATURE_cylindrical, FEATURE_dents,     FEATURE_granite,  FEATURE_hexagon,  FEATURE_leopard,
-    FEATURE_marble,      FEATURE_onion,     FEATURE_planar,   FEATURE_quilted,  FEATURE_radial,
-    FEATURE_ripples,     FEATURE_spherical, FEATURE_spiral1,  FEATURE_spiral2,  FEATURE_square,
-    FEATURE_triangular,  FEATURE_waves,     FEATURE_wood,     FEATURE_wrinkles, FEATURE_average,
-    FEATURE_bumps,       FEATURE_facets,
+    FEATURE_COUNT,         FEATURE_checker,    FEATURE_gradient,    FEATURE_agate,
+    FEATURE_boxed,         FEATURE_bozo,       FEATURE_brick,       FEATURE_cells,
+    FEATURE_crackle,       FEATURE_cubic,      FEATURE_cylindrical, FEATURE_dents,
+    FEATURE_granite,       FEATURE_hexagon,    FEATURE_leopard,     FEATURE_marble,
+    FEATURE_onion,         FEATURE_planar,     FEATURE_quilted,     FEATURE_radial,
+    FEATURE_ripples,       FEATURE_spherical,  FEATURE_spiral1,     FEATURE_spiral2,
+    FEATURE_square,        FEATURE_triangular, FEATURE_waves,       FEATURE_wood,
+    FEATURE_wrinkles,      FEATURE_average,    FEATURE_bumps,       FEATURE_facets,
+    FEATURE_image_pattern, FEATURE_image_map,  FEATURE_bump_map,    FEATURE_material_map,
 };
 _Static_assert(sizeof PATTERN_FEATURES / sizeof *PATTERN_FEATURES == PATTERN_MODELLED,
                "a feature for each pattern");

@@ -150,10 +150,14 @@ typedef enum {
     PATTERN_WAVES,
     PATTERN_WOOD,
     PATTERN_WRINKLES,
-    PATTERN_AVERAGE,  // no value: the mean of the entries, weighted by theirs
-    PATTERN_BUMPS,    // of normals only, this and the next; the pigment is PATTERN_BOZO
-    PATTERN_FACETS,   // facets
-    PATTERN_MODELLED, // patterns from here on are not in a Scene
+    PATTERN_AVERAGE,      // no value: the mean of the entries, weighted by theirs
+    PATTERN_BUMPS,        // of normals only, this and the next; the pigment is PATTERN_BOZO
+    PATTERN_FACETS,       // facets
+    PATTERN_IMAGE,        // picture: image_pattern, its brightness or transparency
+    PATTERN_IMAGE_MAP,    // picture; of pigments only, which have no map then
+    PATTERN_BUMP_MAP,     // picture; of normals only
+    PATTERN_MATERIAL_MAP, // picture; of textures only: its entries by number, without values
+    PATTERN_MODELLED,     // patterns from here on are not in a Scene
 } PatternType;
 
 // ORDER wave_type
@@ -229,6 +233,66 @@ typedef struct {
     double size, coords, metric; // coords 0: cells of the normal itself, else of the point
 } FacetsShape;
 
+// ORDER picture_type: the formats that a scene names.
+typedef enum {
+    PICTURE_PNG,
+    PICTURE_GIF,
+    PICTURE_TGA,
+    PICTURE_IFF,
+    PICTURE_POT,
+    PICTURE_PGM,
+    PICTURE_PPM,
+    PICTURE_SYS, // BMP
+    PICTURE_JPEG,
+    PICTURE_TIFF,
+    PICTURE_BMP,
+    PICTURE_EXR,
+    PICTURE_HDR,
+} PictureType;
+
+// ORDER picture_decode: how the stored values become light.
+typedef enum {
+    DECODE_NONE,  // they are it
+    DECODE_FILE,  // as the file says; one that says nothing: as its format is wont to
+    DECODE_OLD,   // as the file says; one that says nothing: not at all
+    DECODE_POWER, // raised to picture.gamma
+    DECODE_SRGB,
+} PictureDecode;
+
+// ORDER picture_layout
+typedef enum { LAYOUT_PLANAR, LAYOUT_SPHERICAL, LAYOUT_CYLINDRICAL, LAYOUT_TORUS } PictureLayout;
+
+// ORDER picture_between: what stands between the middles of pixels.
+typedef enum { BETWEEN_NONE, BETWEEN_BILINEAR, BETWEEN_BICUBIC, BETWEEN_NORMALIZED } PictureBetween;
+
+// ORDER picture_use: which number a pixel is, where one is asked for.
+typedef enum { USE_PICTURE_COLOR, USE_PICTURE_INDEX, USE_PICTURE_ALPHA } PictureUse;
+
+// One colour of the palette made transparent.
+typedef struct {
+    int place;
+    bool transmit; // else filter
+    float value;
+} PaletteChange;
+
+// A file and how it is laid on: over the unit square of x and y, around the unit sphere, ...
+typedef struct {
+    const char *path; // in a scene file: absolute, or from where that stands
+    PictureType type;
+    PictureDecode decode;
+    float gamma;
+    bool to_working; // light goes on to the working space (image_map)
+    PictureLayout layout;
+    PictureBetween between;
+    PictureUse use;
+    bool once;           // nothing is around it; else it repeats
+    Vec2 repeat, offset; // default <1, 1> and <0, 0>
+    bool has_filter, has_transmit;
+    float filter, transmit; // of all pixels: added, or put into every place of the palette
+    PaletteChange *changes;
+    uint32_t change_count;
+} Picture;
+
 // How a point becomes a number. warps are stored in the order in which they are applied to the
 // point (last written first); consecutive transforms are one (facts: textures 1.6).
 typedef struct {
@@ -248,6 +312,7 @@ typedef struct {
     float quilted[2];      // control0, control1; default 1, 1
     CrackleShape crackle;  // default form <-1, 1, 0>, metric 2
     FacetsShape facets;    // default size 0.1, coords 0, metric 2
+    uint32_t picture;      // of the patterns that look at one
 } Pattern;
 
 // One entry of a map: `value` is the position; the colour, or a pigment when pigment != NO_INDEX.
@@ -476,6 +541,8 @@ typedef struct {
     uint32_t rainbow_count;
     Light *lights;
     uint32_t light_count;
+    Picture *pictures;
+    uint32_t picture_count;
     Pigment *pigments;
     uint32_t pigment_count;
     Normal *normals;
@@ -506,6 +573,7 @@ AreaLight area_light_default(void);
 // Are both the same, member by member and bit by bit? They may be of different scenes with the same
 // pools: pigments in maps are compared by index.
 bool pigment_equal(const Pigment *a, const Pigment *b);
+bool picture_equal(const Picture *a, const Picture *b);
 bool normal_equal(const Normal *a, const Normal *b);
 bool texture_equal(const Texture *a, const Texture *b);
 
@@ -514,6 +582,7 @@ Rainbow rainbow_default(void); // without a pigment and a direction
 
 Turbulence turbulence_default(void); // without an amount
 Pattern pattern_default(void);
+Picture picture_default(void);
 Normal normal_default(void); // without a pattern
 Warp warp_default(WarpType type);
 Object object_default(ObjectType type);

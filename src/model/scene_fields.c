@@ -331,6 +331,7 @@ static const Field SCENE_FIELDS[] = {
     RECORDS(Scene, fogs, fog_count, "fogs", &FOG),
     RECORDS(Scene, rainbows, rainbow_count, "rainbows", &RAINBOW),
     RECORDS(Scene, lights, light_count, "lights", &LIGHT),
+    RECORDS(Scene, pictures, picture_count, "pictures", &PICTURE_RECORD),
     RECORDS(Scene, pigments, pigment_count, "pigments", &PIGMENT_RECORD),
     RECORDS(Scene, normals, normal_count, "normals", &NORMAL_RECORD),
     RECORDS(Scene, functions, function_count, "functions", &FUNCTION_RECORD),
@@ -390,6 +391,10 @@ bool pigment_equal(const Pigment *a, const Pigment *b) {
     return record_equal(&PIGMENT_RECORD, a, b);
 }
 
+bool picture_equal(const Picture *a, const Picture *b) {
+    return record_equal(&PICTURE_RECORD, a, b);
+}
+
 bool normal_equal(const Normal *a, const Normal *b) { return record_equal(&NORMAL_RECORD, a, b); }
 
 bool texture_equal(const Texture *a, const Texture *b) {
@@ -399,6 +404,10 @@ bool texture_equal(const Texture *a, const Texture *b) {
 bool field_belongs(const Record *table, const Field *field, const void *record) {
     return field->kinds == 0 ||
            (field->kinds >> *(const int *)field_of(record, table->fields[0].offset) & 1);
+}
+
+static bool same_path(const char *a, const char *b) {
+    return a == b || (a && b && strcmp(a, b) == 0);
 }
 
 bool field_equal(const Field *field, const void *a, const void *b) {
@@ -411,6 +420,8 @@ bool field_equal(const Field *field, const void *a, const void *b) {
     case FIELD_ENUM:
         size = sizeof(int);
         break;
+    case FIELD_PATH:
+        return same_path(*(const char *const *)a, *(const char *const *)b);
     case FIELD_INDEX:
         size = sizeof(uint32_t);
         break;

@@ -15,6 +15,7 @@ typedef enum {
     FIELD_INT,
     FIELD_FLOAT,
     FIELD_DOUBLE,
+    FIELD_PATH,      // const char *: of a file; relative ones start at the scene file
     FIELD_INDEX,     // uint32_t; NO_INDEX by leaving it out
     FIELD_ENUM,      // stored as int, written as names[value]
     FIELD_FLOATS,    // `columns` floats: [r, g, b]

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "model/scene_read_json.h"
 
+#include "model/file_path.h"
+
 #include <float.h>
 #include <limits.h>
 #include <math.h>
@@ -150,6 +152,13 @@ static uint32_t read_index(const Reader *r, const FieldPath *path, const json_t 
     return (uint32_t)read_whole(r, path, value, 0, NO_INDEX - 1);
 }
 
+static const char *read_path(const Reader *r, const FieldPath *path, const json_t *value) {
+    read_expect(r, path, value, JSON_STRING);
+    if (json_string_length(value) == 0)
+        path_die(r->file, path, "it is empty");
+    return path_beside_file(r->arena, json_string_value(value), r->file);
+}
+
 // An array into a pointer and a count, both members of the struct at `at`.
 static void read_list(const Reader *r, const FieldPath *up, const json_t *value, const Field *field,
                       void *at) {
@@ -195,6 +204,9 @@ static void read_value(const Reader *r, const FieldPath *up, json_t *value, cons
         break;
     case FIELD_DOUBLE:
         *(double *)at = read_double(r, &path, value);
+        break;
+    case FIELD_PATH:
+        *(const char **)at = read_path(r, &path, value);
         break;
     case FIELD_INDEX:
         *(uint32_t *)at = read_index(r, &path, value);

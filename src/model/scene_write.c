@@ -9,6 +9,7 @@
 #include "base/file.h"
 #include "model/json_layout.h"
 #include "model/scene_binary.h"
+#include "model/file_path.h"
 #include "model/scene_fields.h"
 #include "model/scene_format.h"
 
@@ -101,6 +102,22 @@ static void write_transform(Writer *w, const Transform *t) {
     fputc('}', w->out);
 }
 
+// As a JSON string with its quotes; dies when it is no UTF-8.
+static char *quoted(Arena *arena, const char *path, const char *text) {
+    json_t *string = json_string(text);
+    if (!string)
+        die("cannot write '%s': a name in it is not UTF-8", path);
+    char *dump = json_dumps(string, JSON_ENCODE_ANY), *copy = arena_strdup(arena, dump);
+    free(dump);
+    json_decref(string);
+    return copy;
+}
+
+static void write_path(Writer *w, const char *path) {
+    char *from_file = path_from_file(w->scratch, path, w->path);
+    fputs(quoted(w->scratch, w->path, from_file), w->out);
+}
+
 static void write_color(Writer *w, const Color *color) {
     const float numbers[5] = {color->r, color->g, color->b, color->filter, color->transmit};
     static const float opaque[2];
@@ -119,6 +136,8 @@ static void write_record(Writer *w, const Record *record, const void *at) {
         SlopeEntry slope;
         IndexEntry index;
         FacetsShape facets;
+        Picture picture;
+        PaletteChange change;
         Turbulence turbulence;
         CrackleShape crackle;
         Settings settings;
@@ -183,6 +202,9 @@ static void write_value(Writer *w, const Field *field, const void *record) {
         break;
     case FIELD_DOUBLE:
         write_double(w, *(const double *)at);
+        break;
+    case FIELD_PATH:
+        write_path(w, *(const char *const *)at);
         break;
     case FIELD_INDEX:
         fprintf(w->out, "%u", *(const uint32_t *)at);
@@ -359,17 +381,6 @@ static void write_objects(Writer *w, const uint32_t *items, uint32_t count) {
 }
 
 // ---- the document ---------------------------------------------------------------------------
-
-// As a JSON string with its quotes; dies when it is no UTF-8.
-static char *quoted(Arena *arena, const char *path, const char *text) {
-    json_t *string = json_string(text);
-    if (!string)
-        die("cannot write '%s': the name of its side file is not UTF-8", path);
-    char *dump = json_dumps(string, JSON_ENCODE_ANY), *copy = arena_strdup(arena, dump);
-    free(dump);
-    json_decref(string);
-    return copy;
-}
 
 // The side file's size is known only after the objects, so that "buffers" comes last.
 static void write_document(Writer *w, const char *uri) {

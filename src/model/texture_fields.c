@@ -8,11 +8,12 @@
 
 // ORDER pattern_type
 static const char *const PATTERN_TYPE_NAMES[] = {
-    "plain",     "checker", "gradient", "agate",       "boxed",      "bozo",    "brick",
-    "cells",     "crackle", "cubic",    "cylindrical", "dents",      "granite", "hexagon",
-    "leopard",   "marble",  "onion",    "planar",      "quilted",    "radial",  "ripples",
-    "spherical", "spiral1", "spiral2",  "square",      "triangular", "waves",   "wood",
-    "wrinkles",  "average", "bumps",    "facets",      NULL,
+    "plain",        "checker", "gradient", "agate",       "boxed",         "bozo",      "brick",
+    "cells",        "crackle", "cubic",    "cylindrical", "dents",         "granite",   "hexagon",
+    "leopard",      "marble",  "onion",    "planar",      "quilted",       "radial",    "ripples",
+    "spherical",    "spiral1", "spiral2",  "square",      "triangular",    "waves",     "wood",
+    "wrinkles",     "average", "bumps",    "facets",      "image_pattern", "image_map", "bump_map",
+    "material_map", NULL,
 };
 _Static_assert(sizeof PATTERN_TYPE_NAMES / sizeof *PATTERN_TYPE_NAMES == PATTERN_MODELLED + 1,
                "a name for each pattern");
@@ -124,6 +125,66 @@ static const Field MAP_ENTRY_FIELDS[] = {
 static void default_map_entry(void *out) { *(MapEntry *)out = (MapEntry){.pigment = NO_INDEX}; }
 static const Record MAP_ENTRY = {NULL, MAP_ENTRY_FIELDS, sizeof(MapEntry), default_map_entry, NULL};
 
+// ---- pictures -------------------------------------------------------------------------------
+
+// ORDER picture_type
+static const char *const PICTURE_TYPE_NAMES[] = {
+    "png", "gif",  "tga",  "iff", "pot", "pgm", "ppm",
+    "sys", "jpeg", "tiff", "bmp", "exr", "hdr", NULL,
+};
+// ORDER picture_decode
+static const char *const PICTURE_DECODE_NAMES[] = {"none", "file", "old", "power", "srgb", NULL};
+// ORDER picture_layout
+static const char *const PICTURE_LAYOUT_NAMES[] = {"planar", "spherical", "cylindrical", "torus",
+                                                   NULL};
+// ORDER picture_between
+static const char *const PICTURE_BETWEEN_NAMES[] = {"none", "bilinear", "bicubic",
+                                                    "normalized_distance", NULL};
+// ORDER picture_use
+static const char *const PICTURE_USE_NAMES[] = {"color", "index", "alpha", NULL};
+
+static const Field PALETTE_CHANGE_FIELDS[] = {
+    {.name = "place", .type = FIELD_INT, .presence = FIELD_REQUIRED, AT(PaletteChange, place)},
+    BOOL(PaletteChange, transmit, "transmit"),
+    {.name = "value", .type = FIELD_FLOAT, .presence = FIELD_REQUIRED, AT(PaletteChange, value)},
+    END,
+};
+static void default_change(void *out) { *(PaletteChange *)out = (PaletteChange){0}; }
+static const Record PALETTE_CHANGE = {NULL, PALETTE_CHANGE_FIELDS, sizeof(PaletteChange),
+                                      default_change, NULL};
+
+static const Field PICTURE_FIELDS[] = {
+    {.name = "path", .type = FIELD_PATH, .presence = FIELD_REQUIRED, AT(Picture, path)},
+    {.name = "type",
+     .type = FIELD_ENUM,
+     .presence = FIELD_ALWAYS,
+     AT(Picture, type),
+     .names = PICTURE_TYPE_NAMES},
+    ENUM(Picture, decode, "decode", PICTURE_DECODE_NAMES),
+    FLOAT(Picture, gamma, "gamma"),
+    BOOL(Picture, to_working, "to_working"),
+    ENUM(Picture, layout, "layout", PICTURE_LAYOUT_NAMES),
+    ENUM(Picture, between, "interpolate", PICTURE_BETWEEN_NAMES),
+    ENUM(Picture, use, "use", PICTURE_USE_NAMES),
+    BOOL(Picture, once, "once"),
+    {.name = "repeat", .type = FIELD_DOUBLES, AT(Picture, repeat), .columns = 2},
+    {.name = "offset", .type = FIELD_DOUBLES, AT(Picture, offset), .columns = 2},
+    {.name = "filter",
+     .type = FIELD_FLOAT,
+     .presence = FIELD_FLAGGED,
+     AT(Picture, filter),
+     .link = offsetof(Picture, has_filter)},
+    {.name = "transmit",
+     .type = FIELD_FLOAT,
+     .presence = FIELD_FLAGGED,
+     AT(Picture, transmit),
+     .link = offsetof(Picture, has_transmit)},
+    RECORDS(Picture, changes, change_count, "palette", &PALETTE_CHANGE),
+    END,
+};
+static void default_picture(void *out) { *(Picture *)out = picture_default(); }
+const Record PICTURE_RECORD = {NULL, PICTURE_FIELDS, sizeof(Picture), default_picture, NULL};
+
 static const Field FACETS_FIELDS[] = {
     DOUBLE(FacetsShape, size, "size"),
     DOUBLE(FacetsShape, coords, "coords"),
@@ -153,7 +214,8 @@ static const Record FACETS = {NULL, FACETS_FIELDS, sizeof(FacetsShape), default_
         INT(Struct, pattern.arms, "arms"), ENUM(Struct, pattern.wave, "wave", WAVE_TYPE_NAMES),    \
         FLOAT(Struct, pattern.frequency, "frequency"), FLOAT(Struct, pattern.phase, "phase"),      \
         FLOAT(Struct, pattern.exponent, "exponent"),                                               \
-        INT(Struct, pattern.noise_generator, "noise_generator")
+        INT(Struct, pattern.noise_generator, "noise_generator"),                                   \
+        INDEX(Struct, pattern.picture, "picture")
 #define PATTERN_WARPS(Struct)                                                                      \
     RECORDS(Struct, pattern.warps, pattern.warp_count, "warps", &WARP), {                          \
         .name = "turbulence", .type = FIELD_RECORD, .presence = FIELD_FLAGGED,                     \

@@ -5,6 +5,7 @@
 
 #include "model/scene_fields.h"
 
-extern const Record PIGMENT_RECORD, NORMAL_RECORD, TEXTURE_RECORD, TURBULENCE_RECORD;
+extern const Record PICTURE_RECORD, PIGMENT_RECORD, NORMAL_RECORD, TEXTURE_RECORD,
+    TURBULENCE_RECORD;
 
 #endif

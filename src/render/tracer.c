@@ -36,9 +36,9 @@ static void prepare_objects(Shading *shading) {
         const Object *object = &scene->objects[i];
         ObjectInfo *info = &shading->objects[i];
         info->body = body_of(scene, i);
-        info->opaque = texture_is_opaque(scene, object->texture) &&
+        info->opaque = texture_is_opaque(&shading->textures, object->texture) &&
                        (object->interior_texture == NO_INDEX ||
-                        texture_is_opaque(scene, object->interior_texture));
+                        texture_is_opaque(&shading->textures, object->interior_texture));
         shading->groups |= object->no_global_lights;
         if (!object_is_tree(object) && !object->no_shadow && !info->opaque)
             shading->all_opaque = false;
@@ -85,7 +85,7 @@ Shading *shading_create(const Scene *scene, const World *world, const TraceOptio
     shading->arena = arena;
     shading->scene = scene;
     shading->world = world;
-    shading->textures = textures_make(scene);
+    shading->textures = textures_make(scene, arena);
     shading->options = *options;
     shading->quality = quality_of(options->quality);
     shading->legacy = scene->settings.version < 370;

@@ -5,6 +5,7 @@
 #include "texture/normal.h"
 
 #include "texture/formula.h"
+#include "texture/image_map.h"
 #include "texture/map.h"
 #include "texture/pattern.h"
 
@@ -103,6 +104,8 @@ static Vec3 bend(const Textures *textures, const Normal *normal, TextureHit *hit
     switch (pattern->type) {
     case PATTERN_AVERAGE:
         return bend_average(textures, normal, hit, p, n);
+    case PATTERN_BUMP_MAP:
+        return image_map_bump(&textures->pictures[pattern->picture], amount, p, n);
     case PATTERN_BUMPS:
         return bump_bumps(amount, p, n);
     case PATTERN_DENTS:

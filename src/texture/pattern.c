@@ -6,6 +6,7 @@
 
 #include "texture/formula.h"
 #include "noise/noise.h"
+#include "texture/image_map.h"
 #include "texture/warp.h"
 
 #include <assert.h>
@@ -116,6 +117,8 @@ static double formula(const Textures *textures, const Pattern *pattern, Vec3 p) 
         return solid_cylindrical(p);
     case PATTERN_HEXAGON:
         return tiles_hexagon(p);
+    case PATTERN_IMAGE:
+        return image_map_value(&textures->pictures[pattern->picture], p);
     case PATTERN_LEOPARD:
         return solid_leopard(p);
     case PATTERN_ONION:

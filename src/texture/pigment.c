@@ -4,6 +4,7 @@
 // put the point, so that nested transforms compose.
 #include "texture/pigment.h"
 
+#include "texture/image_map.h"
 #include "texture/map.h"
 #include "texture/pattern.h"
 
@@ -65,6 +66,8 @@ bool pigment_color(const Textures *textures, uint32_t index, const TextureHit *h
     if (pigment->uv_mapping)
         p = vec3(hit->u, hit->v, 0.0);
     p = pattern_point(&pigment->pattern, p);
+    if (pigment->pattern.type == PATTERN_IMAGE_MAP)
+        return image_map_color(&textures->pictures[pigment->pattern.picture], p, color);
     if (pigment->pattern.type == PATTERN_AVERAGE) {
         *color = average(textures, pigment, hit, p);
         return true;
@@ -84,13 +87,15 @@ bool pigment_color(const Textures *textures, uint32_t index, const TextureHit *h
 
 static bool color_is_opaque(Color c) { return fabsf(c.filter) <= EPS && fabsf(c.transmit) <= EPS; }
 
-bool pigment_is_opaque(const Scene *scene, uint32_t index) {
-    const Pigment *pigment = &scene->pigments[index];
+bool pigment_is_opaque(const Textures *textures, uint32_t index) {
+    const Pigment *pigment = &textures->scene->pigments[index];
+    if (pigment->pattern.type == PATTERN_IMAGE_MAP)
+        return textures->pictures[pigment->pattern.picture].opaque;
     if (pigment->pattern.type == PATTERN_PLAIN)
         return color_is_opaque(pigment->color);
     for (uint32_t i = 0; i < pigment->entry_count; i++) {
         const MapEntry *entry = &pigment->entries[i];
-        if (entry->pigment != NO_INDEX ? !pigment_is_opaque(scene, entry->pigment)
+        if (entry->pigment != NO_INDEX ? !pigment_is_opaque(textures, entry->pigment)
                                        : !color_is_opaque(entry->color))
             return false;
     }

@@ -13,6 +13,6 @@ bool pigment_color(const Textures *textures, uint32_t pigment, const TextureHit 
 
 // Nothing anywhere in the pigment filters or transmits, so that it stops a shadow ray wherever it
 // is met.
-bool pigment_is_opaque(const Scene *scene, uint32_t pigment);
+bool pigment_is_opaque(const Textures *textures, uint32_t pigment);
 
 #endif

@@ -2,20 +2,21 @@
 // Textures without light (facts: textures 1.3-1.5); the lit colours are render/shade.c.
 #include "texture/texture.h"
 
+#include "texture/image_map.h"
 #include "texture/map.h"
 #include "texture/normal.h"
 #include "texture/pattern.h"
 #include "texture/pigment.h"
 
-bool texture_is_opaque(const Scene *scene, uint32_t index) {
+bool texture_is_opaque(const Textures *textures, uint32_t index) {
     if (index == NO_INDEX)
         return true;
-    const Texture *texture = &scene->textures[index];
+    const Texture *texture = &textures->scene->textures[index];
     for (uint32_t i = 0; i < texture->layer_count; i++)
-        if (pigment_is_opaque(scene, texture->layers[i].pigment))
+        if (pigment_is_opaque(textures, texture->layers[i].pigment))
             return true;
     for (uint32_t i = 0; i < texture->entry_count; i++)
-        if (!texture_is_opaque(scene, texture->entries[i].index))
+        if (!texture_is_opaque(textures, texture->entries[i].index))
             return false;
     return texture->entry_count > 0;
 }
@@ -47,6 +48,11 @@ TextureChoice texture_choose(const Textures *textures, uint32_t index, TextureSp
     if (pattern->type == PATTERN_AVERAGE) {
         choice.average = true;
         choice.second = texture->entry_count;
+        return choice;
+    }
+    if (pattern->type == PATTERN_MATERIAL_MAP) {
+        choice.first = choice.second = image_map_material(&textures->pictures[pattern->picture],
+                                                          texture->entry_count, choice.p);
         return choice;
     }
     double v = pattern_value(textures, pattern, hit, choice.p);

@@ -7,7 +7,7 @@
 
 // A shadow ray that meets this texture ends there: some layer is opaque everywhere, or all textures
 // that a pattern mixes are. NO_INDEX, the built-in black, is.
-bool texture_is_opaque(const Scene *scene, uint32_t texture);
+bool texture_is_opaque(const Textures *textures, uint32_t texture);
 
 // The layers of the largest texture that can be met in this one.
 uint32_t texture_layer_limit(const Scene *scene);

@@ -5,12 +5,16 @@
 
 #include "model/scene.h"
 
+struct ImageMap;
+
 typedef struct {
-    const Scene *scene; // must outlive this
+    const Scene *scene;              // must outlive this
+    const struct ImageMap *pictures; // one per picture of the scene
 } Textures;
 
-// Builds the tables of the noise too.
-Textures textures_make(const Scene *scene);
+// Builds the tables of the noise too, and reads the pictures; dies with a message if one cannot be
+// read. All memory in arena.
+Textures textures_make(const Scene *scene, Arena *arena);
 
 // The surface where a ray has met it.
 typedef struct {

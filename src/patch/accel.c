@@ -53,9 +53,9 @@ bool walk_take(void *context, const Root *root) {
     return !query_done(query);
 }
 
-Accel *accel_create(Arena *arena, const PatchDef *defs, size_t count, double tolerance) {
+Accel *accel_create(Arena *arena, const PatchDef *defs, size_t count) {
     Accel *accel = ARENA_NEW(arena, Accel);
-    pieces_build(arena, defs, count, tolerance, accel);
+    pieces_build(arena, defs, count, accel);
     return accel;
 }
 

@@ -11,9 +11,8 @@
 
 typedef struct Accel Accel;
 
-// Keeps pointers into defs and its points; everything else lies in the arena. tolerance is a share
-// of each patch's diameter.
-Accel *accel_create(Arena *arena, const PatchDef *defs, size_t count, double tolerance);
+// Keeps pointers into defs and its points; everything else lies in the arena.
+Accel *accel_create(Arena *arena, const PatchDef *defs, size_t count);
 void accel_query(const Accel *accel, Query *query);
 
 #endif

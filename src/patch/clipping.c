@@ -19,9 +19,9 @@ struct Clipping {
     Refined refined;
 };
 
-Clipping *clipping_create(Arena *arena, const PatchDef *defs, size_t count, double tolerance) {
+Clipping *clipping_create(Arena *arena, const PatchDef *defs, size_t count) {
     Clipping *clipping = ARENA_NEW(arena, Clipping);
-    refine_build(arena, defs, count, tolerance, SHARE, &clipping->refined);
+    refine_build(arena, defs, count, SHARE, &clipping->refined);
     return clipping;
 }
 

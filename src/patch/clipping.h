@@ -10,9 +10,8 @@
 
 typedef struct Clipping Clipping;
 
-// Keeps pointers into defs and its points; everything else lies in the arena. tolerance is a share
-// of each patch's diameter.
-Clipping *clipping_create(Arena *arena, const PatchDef *defs, size_t count, double tolerance);
+// Keeps pointers into defs and its points; everything else lies in the arena.
+Clipping *clipping_create(Arena *arena, const PatchDef *defs, size_t count);
 void clipping_query(const Clipping *clipping, Query *query);
 
 #endif

@@ -22,9 +22,9 @@ struct Newton {
     Refined refined;
 };
 
-Newton *newton_create(Arena *arena, const PatchDef *defs, size_t count, double tolerance) {
+Newton *newton_create(Arena *arena, const PatchDef *defs, size_t count) {
     Newton *newton = ARENA_NEW(arena, Newton);
-    refine_build(arena, defs, count, tolerance, SHARE, &newton->refined);
+    refine_build(arena, defs, count, SHARE, &newton->refined);
     return newton;
 }
 

@@ -10,9 +10,8 @@
 
 typedef struct Newton Newton;
 
-// Keeps pointers into defs and its points; everything else lies in the arena. tolerance is a share
-// of each patch's diameter.
-Newton *newton_create(Arena *arena, const PatchDef *defs, size_t count, double tolerance);
+// Keeps pointers into defs and its points; everything else lies in the arena.
+Newton *newton_create(Arena *arena, const PatchDef *defs, size_t count);
 void newton_query(const Newton *newton, Query *query);
 
 #endif

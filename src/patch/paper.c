@@ -8,7 +8,6 @@
 
 struct Paper {
     const PatchDef *defs;
-    double *tolerances; // scene units
     Tree tree;
 };
 
@@ -18,16 +17,14 @@ typedef struct {
     uint32_t id; // of the patch at hand
 } Walk;
 
-Paper *paper_create(Arena *arena, const PatchDef *defs, size_t count, double tolerance) {
+Paper *paper_create(Arena *arena, const PatchDef *defs, size_t count) {
     Paper *paper = ARENA_NEW(arena, Paper);
     paper->defs = defs;
-    paper->tolerances = ARENA_ARRAY(arena, double, count);
     ARRAY(Box) boxes = {0};
     for (size_t i = 0; i < count; i++) {
         Box box = box_empty();
         for (uint32_t k = 0; k < (defs[i].degree_u + 1) * (defs[i].degree_v + 1); k++)
             box = box_extend(box, defs[i].points[k]);
-        paper->tolerances[i] = tolerance * vec_length(vec_sub(box.high, box.low));
         array_push(&boxes, box);
     }
     tree_build(arena, boxes.items, (uint32_t)count, 1, &paper->tree);
@@ -50,8 +47,7 @@ static void search_patch(Walk *walk, uint32_t number) {
     walk->id = def->id;
     Bezier patch;
     bezier_init(&patch, (int)def->degree_u, (int)def->degree_v, def->points);
-    QiQuery ask = {query->ray, query->t_min, query->t_max, walk->paper->tolerances[number],
-                   bezier_whole()};
+    QiQuery ask = {query->ray, query->t_min, query->t_max, def->tolerance, bezier_whole()};
     QiStats stats = {0};
     QiHit hit;
     if (query->kind == QUERY_ALL)

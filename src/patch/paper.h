@@ -10,9 +10,8 @@
 
 typedef struct Paper Paper;
 
-// Keeps pointers into defs and its points; everything else lies in the arena. tolerance is a share
-// of each patch's diameter.
-Paper *paper_create(Arena *arena, const PatchDef *defs, size_t count, double tolerance);
+// Keeps pointers into defs and its points; everything else lies in the arena.
+Paper *paper_create(Arena *arena, const PatchDef *defs, size_t count);
 void paper_query(const Paper *paper, Query *query);
 
 #endif

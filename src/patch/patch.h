@@ -39,6 +39,7 @@ typedef struct {
     const Vec3 *points;          // (degree_u + 1) * (degree_v + 1), row by row; copied
     uint32_t id;                 // the caller's, comes back in hits
     uint32_t mask;               // a ray meets the patch when (ray mask & mask) != 0
+    double tolerance;            // of a hit, scene units; 0: the set's share of the diameter
     double flatness;             // facets only, as are the steps
     int u_steps, v_steps;
 } PatchDef;

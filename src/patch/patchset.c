@@ -83,10 +83,14 @@ void patchset_add(PatchSet *set, const PatchDef *def) {
     own.v_steps += set->options.finer;
     own.flatness = ldexp(own.flatness, -2 * set->options.finer);
     own.points = arena_copy(set->arena, def->points, count * sizeof(Vec3));
+    Box box = box_empty();
     for (size_t i = 0; i < count; i++) {
         assert(vec_is_finite(own.points[i]));
-        set->bounds = box_extend(set->bounds, own.points[i]);
+        box = box_extend(box, own.points[i]);
     }
+    set->bounds = box_union(set->bounds, box);
+    if (!(own.tolerance > 0.0))
+        own.tolerance = set->options.tolerance * vec_length(vec_sub(box.high, box.low));
     array_push(&set->defs, own);
 }
 
@@ -97,22 +101,22 @@ void patchset_commit(PatchSet *set) {
     size_t count = set->defs.count;
     switch (set->options.method) {
     case METHOD_QI:
-        set->accel = accel_create(set->arena, defs, count, set->options.tolerance);
+        set->accel = accel_create(set->arena, defs, count);
         break;
     case METHOD_QI_PAPER:
-        set->paper = paper_create(set->arena, defs, count, set->options.tolerance);
+        set->paper = paper_create(set->arena, defs, count);
         break;
     case METHOD_CLIPPING:
-        set->clipping = clipping_create(set->arena, defs, count, set->options.tolerance);
+        set->clipping = clipping_create(set->arena, defs, count);
         break;
     case METHOD_NEWTON:
-        set->newton = newton_create(set->arena, defs, count, set->options.tolerance);
+        set->newton = newton_create(set->arena, defs, count);
         break;
     case METHOD_FACETS:
         set->facets = facets_create(set->arena, defs, count);
         break;
     case METHOD_TESSELLATION:
-        set->tessellation = tessellation_create(set->arena, defs, count, set->options.tolerance);
+        set->tessellation = tessellation_create(set->arena, defs, count);
         break;
     case METHOD_COUNT:
         assert(!"no such method");

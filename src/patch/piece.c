@@ -276,7 +276,7 @@ static void cut_patch(Cutter *k) {
 
 // ---- Layout
 
-static AccelPatch make_patch(Arena *arena, const PatchDef *def, double tolerance) {
+static AccelPatch make_patch(Arena *arena, const PatchDef *def) {
     int rows = (int)def->degree_u + 1, columns = (int)def->degree_v + 1;
     Box box = box_empty();
     for (int i = 0; i < rows * columns; i++)
@@ -284,7 +284,7 @@ static AccelPatch make_patch(Arena *arena, const PatchDef *def, double tolerance
     AccelPatch patch = {.def = def,
                         .center = vec_add(vec_scale(box.low, 0.5), vec_scale(box.high, 0.5)),
                         .cubic = rows == 4 && columns == 4,
-                        .tolerance = tolerance * vec_length(vec_sub(box.high, box.low))};
+                        .tolerance = def->tolerance};
     size_t count = patch.cubic ? 64 : (size_t)(3 * rows * columns);
     double *local = ARENA_ARRAY(arena, double, count), reach = 0.0;
     for (int i = 0; i < rows; i++) {
@@ -339,13 +339,12 @@ static void make_block(const Accel *accel, const Cut *cuts, uint32_t leaf, Block
     }
 }
 
-void pieces_build(Arena *arena, const PatchDef *defs, size_t count, double tolerance,
-                  Accel *accel) {
+void pieces_build(Arena *arena, const PatchDef *defs, size_t count, Accel *accel) {
     accel->defs = defs;
     accel->patch_count = count;
     accel->patches = ARENA_ARRAY(arena, AccelPatch, count);
     for (size_t i = 0; i < count; i++)
-        accel->patches[i] = make_patch(arena, &defs[i], tolerance);
+        accel->patches[i] = make_patch(arena, &defs[i]);
     size_t limit = PIECES_IN_ALL / (count + 1) + 1;
     limit = limit > PIECES_A_PATCH ? PIECES_A_PATCH : limit;
 

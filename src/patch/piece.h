@@ -69,7 +69,7 @@ typedef struct Accel {
 } Accel;
 
 // Cuts the patches (in parallel) and builds the tree. defs and their points must stay.
-void pieces_build(Arena *arena, const PatchDef *defs, size_t count, double tolerance, Accel *accel);
+void pieces_build(Arena *arena, const PatchDef *defs, size_t count, Accel *accel);
 
 // S, dS/du and dS/dv at (u,v) in [0,1]^2, about the patch's center.
 void piece_eval(const AccelPatch *patch, double u, double v, Vec3 out[3]);

@@ -136,13 +136,13 @@ static void cut_patch(Cutter *k) {
     }
 }
 
-static RefinePatch make_patch(const PatchDef *def, double tolerance) {
+static RefinePatch make_patch(const PatchDef *def) {
     Bezier whole;
     bezier_init(&whole, (int)def->degree_u, (int)def->degree_v, def->points);
     Box box = bezier_bounds(&whole);
     RefinePatch patch = {.def = def,
                          .center = vec_add(vec_scale(box.low, 0.5), vec_scale(box.high, 0.5)),
-                         .tolerance = tolerance * vec_length(vec_sub(box.high, box.low))};
+                         .tolerance = def->tolerance};
     for (int i = 0; i < bezier_count(&whole); i++)
         whole.p[i] = vec_sub(whole.p[i], patch.center);
     // Cutting, and then a value of S from the sub-patch's net: 8 for the first, at most one more
@@ -151,13 +151,12 @@ static RefinePatch make_patch(const PatchDef *def, double tolerance) {
     return patch;
 }
 
-void refine_build(Arena *arena, const PatchDef *defs, size_t count, double tolerance, double share,
-                  Refined *out) {
+void refine_build(Arena *arena, const PatchDef *defs, size_t count, double share, Refined *out) {
     out->patches = ARENA_ARRAY(arena, RefinePatch, count);
     size_t limit = SUBS_IN_ALL / (count + 1) + 1;
     ARRAY(Cutter) cutters = {0};
     for (size_t i = 0; i < count; i++) {
-        out->patches[i] = make_patch(&defs[i], tolerance);
+        out->patches[i] = make_patch(&defs[i]);
         array_push(&cutters, ((Cutter){.patch = &out->patches[i], .share = share, .limit = limit}));
     }
 #pragma omp parallel for schedule(dynamic, 4)

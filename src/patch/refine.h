@@ -36,8 +36,7 @@ typedef struct {
 
 // Cuts each patch until the net of a sub-patch is flat to within `share` of its size, in parallel;
 // at most about a million sub-patches in all. Keeps pointers into defs.
-void refine_build(Arena *arena, const PatchDef *defs, size_t count, double tolerance, double share,
-                  Refined *out);
+void refine_build(Arena *arena, const PatchDef *defs, size_t count, double share, Refined *out);
 
 // A ray as one patch sees it: points org + s dir about the patch's center, org being the ray's
 // nearest point to it, t = t_base + s t_per_s; and two directions across it (Efremov, Havran and

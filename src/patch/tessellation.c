@@ -40,9 +40,8 @@ uint32_t tessellation_cuts(const PatchDef *def, double distance) {
 
 #if !EMBREE_HEADERS
 
-Tessellation *tessellation_create(Arena *arena, const PatchDef *defs, size_t count,
-                                  double tolerance) {
-    (void)arena, (void)defs, (void)count, (void)tolerance;
+Tessellation *tessellation_create(Arena *arena, const PatchDef *defs, size_t count) {
+    (void)arena, (void)defs, (void)count;
     die("no method tessellation: %s", embree_missing());
 }
 
@@ -68,15 +67,16 @@ struct Tessellation {
 };
 
 // Chooses the cuts; more than memory allows are scaled down together.
-static void choose_cuts(const PatchDef *defs, size_t count, double tolerance, uint32_t *cuts) {
-    double wanted = 0.0;
+static void choose_cuts(const PatchDef *defs, size_t count, uint32_t *cuts) {
+    double wanted = 0.0, tightest = INFINITY; // tolerance as a share of the diameter
     for (size_t i = 0; i < count; i++) {
         Box box = box_empty();
         for (uint32_t k = 0; k < (defs[i].degree_u + 1) * (defs[i].degree_v + 1); k++)
             box = box_extend(box, defs[i].points[k]);
         // Single precision rounds the vertices to 2^-24: finer triangles are not nearer.
-        double share = fmax(tolerance, 0x1p-24);
-        cuts[i] = tessellation_cuts(&defs[i], share * vec_length(vec_sub(box.high, box.low)));
+        double diameter = vec_length(vec_sub(box.high, box.low));
+        tightest = fmin(tightest, diameter > 0.0 ? defs[i].tolerance / diameter : INFINITY);
+        cuts[i] = tessellation_cuts(&defs[i], fmax(defs[i].tolerance, 0x1p-24 * diameter));
         wanted += 2.0 * cuts[i] * cuts[i];
     }
     double shrink = fmin(1.0, sqrt(TRIANGLES_IN_ALL / wanted));
@@ -84,20 +84,19 @@ static void choose_cuts(const PatchDef *defs, size_t count, double tolerance, ui
         double fewer = floor(cuts[i] * shrink);
         cuts[i] = fewer >= 1.0 ? (uint32_t)fewer : 1;
     }
-    if (tolerance < 0x1p-24 || shrink < 1.0)
+    if (tightest < 0x1p-24 || shrink < 1.0)
         warn("triangles cannot keep to the tolerance %g: they are within %.2g of the patches' "
              "diameters",
-             tolerance, fmax(tolerance, 0x1p-24) / (shrink * shrink));
+             tightest, fmax(tightest, 0x1p-24) / (shrink * shrink));
 }
 
-Tessellation *tessellation_create(Arena *arena, const PatchDef *defs, size_t count,
-                                  double tolerance) {
+Tessellation *tessellation_create(Arena *arena, const PatchDef *defs, size_t count) {
     if (embree_missing())
         die("no method tessellation: %s", embree_missing());
     Tessellation *t = ARENA_NEW(arena, Tessellation);
     t->defs = defs;
     uint32_t *cuts = ARENA_ARRAY(arena, uint32_t, count);
-    choose_cuts(defs, count, tolerance, cuts);
+    choose_cuts(defs, count, cuts);
     t->mesh =
         embree_mesh_create(arena, defs, count, cuts, RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION, 0);
     t->bounds = box_empty();

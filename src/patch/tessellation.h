@@ -14,8 +14,7 @@ typedef struct Tessellation Tessellation;
 
 // Keeps pointers into defs and its points. Dies when Embree is not there. Warns when the triangles
 // cannot keep to the tolerance; hits tell their true distance from the patch in any case.
-Tessellation *tessellation_create(Arena *arena, const PatchDef *defs, size_t count,
-                                  double tolerance);
+Tessellation *tessellation_create(Arena *arena, const PatchDef *defs, size_t count);
 void tessellation_release(Tessellation *tessellation);
 uint64_t tessellation_memory(const Tessellation *tessellation); // bytes outside of the arena
 void tessellation_query(const Tessellation *tessellation, Query *query);

@@ -11,14 +11,6 @@
 #include <string.h>
 #include <unistd.h>
 
-#ifdef HOSTILE
-static const uint64_t DEFAULT_TOKENS = 5000000;
-static const size_t DEFAULT_BYTES = (size_t)160 << 20;
-#else
-static const uint64_t DEFAULT_TOKENS = 200000000;
-static const size_t DEFAULT_BYTES = (size_t)4 << 30;
-#endif
-
 static void on_interrupt(int number) {
     (void)number;
     _exit(2);
@@ -80,19 +72,12 @@ static void declare_initial(Converter *cv) {
                   (Value){.type = VALUE_STRING, .string = slash ? slash + 1 : o->input});
 }
 
-static uint64_t token_limit(void) {
-    const char *text = getenv("QIPOV_MAX_TOKENS");
-    double limit = text ? strtod(text, NULL) : 0;
-    return limit >= 1 && limit < 1e18 ? (uint64_t)limit : DEFAULT_TOKENS;
-}
-
 static Converter *start(const RenderOptions *options, Arena *arena) {
     Converter *cv = ARENA_NEW(arena, Converter);
     cv->arena = arena;
     cv->options = options;
     cv->language = ARENA_NEW(arena, Language);
-    cv->language->max_read = token_limit();
-    cv->language->max_bytes = arena_bytes(arena) + DEFAULT_BYTES;
+    limits_start(cv);
     cv->version = options->version ? options->version : 370;
     cv->version_set = options->version != 0;
     cv->noise_generator = cv->version >= 350 ? 2 : 1;

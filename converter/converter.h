@@ -130,6 +130,18 @@ _Noreturn void die_expected(Converter *cv, const char *what);
 void enter_level(Converter *cv);
 void leave_level(Converter *cv);
 
+// ---- limits.c ---------------------------------------------------------------------------------
+
+uint64_t limit_of(const Converter *cv, Limit limit);
+const char *limit_hint(Converter *cv, Limit limit); // "(--limit NAME=... sets another limit)"
+// To be called for each piece of work that a few tokens can ask for many times (a copy of an object
+// of a tree): dies where the time or the memory of the reading is over.
+void check_limits(Converter *cv);
+// What is built from named parts (objects, maps of pigments, ...) may be nested without a brace in
+// the text being nested. Whoever walks it later calls itself for each level.
+enum { MAX_DEPTH = 1000 };
+void check_depth(Converter *cv, int depth, const char *what);
+
 // ---- value.c, symbol.c ------------------------------------------------------------------------
 
 // ORDER value_type (value_type_name)

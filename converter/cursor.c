@@ -39,10 +39,11 @@ static TokenList tokens_of(Converter *cv, const Source *source) {
 
 void push_file(Converter *cv, const Source *source, const Token *call) {
     TokenList list = tokens_of(cv, source);
-    if (call && ++cv->language->includes > MAX_INCLUDES) {
+    if (call && ++cv->language->includes > limit_of(cv, LIMIT_INCLUDES)) {
         Loc loc = token_loc(cv, call);
-        die_at(&loc, "Too many nested include files (%d): does '%s' include itself?", MAX_INCLUDES,
-               source->name);
+        die_at(&loc, "Too many nested include files (%llu): does '%s' include itself? %s",
+               (unsigned long long)limit_of(cv, LIMIT_INCLUDES), source->name,
+               limit_hint(cv, LIMIT_INCLUDES));
     }
     list.count--; // the TOK_EOF behind the end stays readable for the main file
     push_frame(cv, list, call)->source = source;
@@ -50,10 +51,11 @@ void push_file(Converter *cv, const Source *source, const Token *call) {
 
 void push_macro(Converter *cv, const Macro *macro, const Token *call) {
     Language *l = cv->language;
-    if (++l->calls > MAX_CALLS) {
+    if (++l->calls > limit_of(cv, LIMIT_CALLS)) {
         Loc loc = token_loc(cv, call);
-        die_at(&loc, "Too many nested macro calls (%d): does '%s' call itself without end?",
-               MAX_CALLS, name_text(cv, macro->name));
+        die_at(&loc, "Too many nested macro calls (%llu): does '%s' call itself without end? %s",
+               (unsigned long long)limit_of(cv, LIMIT_CALLS), name_text(cv, macro->name),
+               limit_hint(cv, LIMIT_CALLS));
     }
     push_frame(cv, macro->body, call)->macro = macro;
     l->condition_floor = l->conditions.count;
@@ -142,38 +144,13 @@ void die_expected(Converter *cv, const char *what) {
 
 // ---- tokens -----------------------------------------------------------------------------------
 
-_Noreturn static void die_limit(Converter *cv) {
-    Language *l = cv->language;
-    Loc loc;
-    const char *loop = innermost_loop(cv, &loc);
-    if (!loop) {
-        loc = token_loc(cv, l->last ? l->last : cv->frame->tokens);
-        loop = "this program";
-    }
-    die_at(&loc,
-           "%s has run too long: more than %llu tokens were read (the environment variable "
-           "QIPOV_MAX_TOKENS sets another limit)",
-           loop, (unsigned long long)l->max_read);
-}
-
-_Noreturn static void die_memory(Converter *cv) {
-    Language *l = cv->language;
-    Loc loc = token_loc(cv, l->last ? l->last : cv->frame->tokens);
-    die_at(&loc, "The scene needs too much memory (more than %zu MB while it is read)",
-           l->max_bytes >> 20);
-}
-
 const Token *raw_token(Converter *cv) {
-    Language *l = cv->language;
     while (cv->frame->at == cv->frame->count) {
         if (!cv->frame->outer)
             return &cv->frame->tokens[cv->frame->count]; // TOK_EOF, again and again
         pop_frame(cv);
     }
-    if (++l->read > l->max_read)
-        die_limit(cv);
-    if (l->read % 1024 == 0 && arena_bytes(cv->arena) > l->max_bytes)
-        die_memory(cv);
+    count_token(cv);
     const Token *token = &cv->frame->tokens[cv->frame->at++];
     if (token->code == TOK_ERROR) {
         Loc loc = token_loc(cv, token);
@@ -309,12 +286,3 @@ void expect(Converter *cv, int code, const char *where) {
 }
 
 void optional_comma(Converter *cv) { accept(cv, ','); }
-
-void enter_level(Converter *cv) {
-    if (++cv->level <= MAX_LEVEL)
-        return;
-    Loc loc = token_loc(cv, cv->language->last ? cv->language->last : cv->frame->tokens);
-    die_at(&loc, "Nested too deeply (%d levels of braces, parentheses and macro calls)", MAX_LEVEL);
-}
-
-void leave_level(Converter *cv) { cv->level--; }

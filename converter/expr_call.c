@@ -88,7 +88,7 @@ static double next_random(Converter *cv, const Token *name, double number) {
 
 static double new_random(Converter *cv, double seed) {
     Language *l = cv->language;
-    if (l->seeds.count >= MAX_ELEMENTS) {
+    if (l->seeds.count >= limit_of(cv, LIMIT_ELEMENTS)) {
         Loc loc = token_loc(cv, l->last);
         die_at(&loc, "Too many random number generators: call seed() once, not in a loop");
     }

@@ -6,23 +6,11 @@
 
 #include "converter/converter.h"
 
-// Hostile input ends at one of these with a message. In the hostile test build the limits that cost
-// time or stack are lower.
+// More than this comes from mistakes. What can be moved is a Limit (limits.c).
 enum {
-    MAX_INCLUDES = 64,
     MAX_DIMENSIONS = 5,
     MAX_PARAMETERS = 256,
     MAX_IDENTIFIER = 4096,
-    MAX_STRING = 1 << 20,
-#ifdef HOSTILE
-    MAX_LEVEL = 450,
-    MAX_CALLS = 250,
-    MAX_ELEMENTS = 1000000, // of all arrays together
-#else
-    MAX_LEVEL = 1200,
-    MAX_CALLS = 500,
-    MAX_ELEMENTS = 10000000,
-#endif
 };
 
 // Truth, equality and subscripts are taken with this tolerance, as POV-Ray does (facts: sdl 2).
@@ -210,10 +198,13 @@ typedef struct Language {
     Place place;        // what `ahead` stands for, if it is a declared identifier
     bool ahead_raw;     // it was read while directives were held
     bool held;
-    const Token *last;       // the last consumed
-    uint64_t consumed;       // tokens given out by next_token
-    uint64_t read, max_read; // tokens taken from frames, and the limit
-    size_t max_bytes;
+    const Token *last; // the last consumed
+    uint64_t consumed; // tokens given out by next_token
+    uint64_t read;     // tokens taken from frames
+    uint64_t limits[LIMIT_COUNT];
+    uint64_t work, started; // limits.c
+    size_t max_bytes, stack_room;
+    const char *stack_base;
     uint64_t serials;
     size_t includes, calls; // frames of each kind
     size_t condition_floor; // conditions that belong to outer frames of a macro call
@@ -238,6 +229,11 @@ void push_macro(Converter *cv, const Macro *macro, const Token *call);
 void leave_macro(Converter *cv);         // #break
 const Place *ahead_place(Converter *cv); // of the next token; NULL: it names nothing
 void expect_raw(Converter *cv, int code, const char *where);
+
+// ---- limits.c ---------------------------------------------------------------------------------
+
+void limits_start(Converter *cv);
+void count_token(Converter *cv);
 
 // ---- directive.c, loop.c, macro.c, user_file.c
 // ----------------------------------------------------

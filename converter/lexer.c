@@ -169,8 +169,10 @@ static void read_string(Lexer *lx) {
     size_t length = (size_t)(lx->p - start) - 1;
     if (lx->p >= lx->end) {
         add_error(lx, start, "No end quote for this string");
-    } else if (length > MAX_STRING) {
-        add_error(lx, start, "String too long (1 MiB is the limit)");
+    } else if (length > limit_of(lx->cv, LIMIT_STRING)) {
+        add_error(
+            lx, start,
+            arena_printf(lx->cv->arena, "String too long %s", limit_hint(lx->cv, LIMIT_STRING)));
     } else {
         char *text = arena_alloc(lx->cv->arena, length + 1);
         memcpy(text, start + 1, length);

@@ -235,6 +235,8 @@ void parse_light_items(Converter *cv, ObjectNode *object) {
             object_move(cv, object, &move);
         else if (!parse_kind(cv, object->light, token) && !parse_number(cv, object->light, token) &&
                  !parse_rest(cv, object->light, token) && !parse_photons_modifier(cv))
-            return;
+            break;
     }
+    if (object->light->looks_like)
+        object_put_below(cv, object, object->light->looks_like);
 }

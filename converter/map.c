@@ -56,14 +56,38 @@ static void add_item(Converter *cv, ItemList *list, MapItem item) {
     list->count++;
 }
 
+static int pattern_depth(const PatternNode *pattern) {
+    return pattern && pattern->map ? pattern->map->depth : 0;
+}
+
+static int texture_depth(const TextureNode *texture) {
+    int depth = 0;
+    for (; texture; texture = texture->below) {
+        const PatternNode *parts[] = {&texture->pattern, texture->pigment, texture->normal};
+        for (int i = 0; i < 3; i++)
+            depth = pattern_depth(parts[i]) > depth ? pattern_depth(parts[i]) : depth;
+    }
+    return depth;
+}
+
+const MapNode *map_create(Converter *cv, MapKind kind, const MapItem *items, uint32_t count) {
+    int depth = 0;
+    for (uint32_t i = 0; i < count && kind != MAP_COLOR && kind != MAP_SLOPE; i++) {
+        int inner =
+            kind == MAP_TEXTURE ? texture_depth(items[i].node) : pattern_depth(items[i].node);
+        depth = inner > depth ? inner : depth;
+    }
+    check_depth(cv, depth + 1, "maps of patterns");
+    MapNode map = {.kind = kind, .items = items, .count = count, .depth = depth + 1};
+    return arena_copy(cv->arena, &map, sizeof map);
+}
+
 static const MapNode *finish_map(Converter *cv, MapKind kind, const ItemList *list) {
-    MapNode *map = ARENA_NEW(cv->arena, MapNode);
     MapItem *items = ARENA_ARRAY(cv->arena, MapItem, list->count);
     uint32_t i = 0;
     for (const ItemLink *link = list->first; link; link = link->next)
         items[i++] = link->item;
-    *map = (MapNode){.kind = kind, .items = items, .count = list->count};
-    return map;
+    return map_create(cv, kind, items, list->count);
 }
 
 static Color value_color(const Value *value) {

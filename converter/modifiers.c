@@ -153,10 +153,12 @@ static ObjectNode *parse_bodies(Converter *cv, const char *where) {
     return first;
 }
 
-static void append(ObjectNode **list, ObjectNode *more) {
+static void append(Converter *cv, ObjectNode *node, ObjectNode **list, ObjectNode *more) {
     while (*list)
         list = &(*list)->next;
     *list = more;
+    for (const ObjectNode *body = more; body; body = body->next)
+        object_put_below(cv, node, body);
 }
 
 static bool parse_bound(Converter *cv, ObjectNode *node) {
@@ -174,9 +176,9 @@ static bool parse_bound(Converter *cv, ObjectNode *node) {
         if (*mine)
             die_misplaced(cv, inner, "this object already has bodies of that kind");
         for (const ObjectNode *body = *other; body; body = body->next)
-            append(mine, object_copy(cv, body));
+            append(cv, node, mine, object_copy(cv, body));
     } else {
-        append(mine, parse_bodies(cv, token->text));
+        append(cv, node, mine, parse_bodies(cv, token->text));
     }
     expect(cv, '}', token->text);
     if (bound)

@@ -73,6 +73,7 @@ typedef struct {
     MapKind kind;
     const MapItem *items;
     uint32_t count;
+    int depth; // of maps inside one another
 } MapNode;
 
 // What is known of a pattern keyword before its arguments.
@@ -116,6 +117,7 @@ bool map_keyword(int code, MapKind *kind);
 // From the '{' to the '}' of a map. `average`: positions are weights and may be missing.
 const MapNode *parse_map(Converter *cv, MapKind kind, bool average);
 const MapNode *parse_pattern_list(Converter *cv, PatternUse use, const PatternInfo *info);
+const MapNode *map_create(Converter *cv, MapKind kind, const MapItem *items, uint32_t count);
 const MapNode *map_default(Converter *cv, const PatternInfo *info);
 // The block of image_map, bump_map, image_pattern; what height_field and material_map begin with.
 // amount: what bump_size sets. The picture has no path when a function makes it.
@@ -251,8 +253,9 @@ struct ObjectNode {
     const TextureNode *texture, *interior_texture;
     const InteriorNode *interior;
     bool hollow_set, double_set;
-    bool shared; // children, points and light belong to another node too: copy before a change
-    int depth;   // of the tree below
+    bool shared;    // children, points and light belong to another node too: copy before a change
+    int depth;      // of the tree below
+    uint64_t below; // objects in the tree below, all copies counted
     ObjectNode *first, *last; // children
     ObjectNode *bounds, *clips;
     const Loc *bound_loc, *clip_loc;
@@ -269,6 +272,10 @@ struct ObjectNode {
 ObjectNode *parse_object(Converter *cv);
 ObjectNode *object_create(Converter *cv, int keyword);
 ObjectNode *object_copy(Converter *cv, const ObjectNode *object);
+// part is held by parent in any way: dies if the tree becomes too deep or has too many objects.
+void object_put_below(Converter *cv, ObjectNode *parent, const ObjectNode *part);
+// *count grows by the object and all below it, up to the limit.
+void object_count(Converter *cv, uint64_t *count, const ObjectNode *object);
 void object_add_child(Converter *cv, ObjectNode *parent, ObjectNode *child);
 // Gives the object its own children, points and light before they are changed.
 void object_unshare(Converter *cv, ObjectNode *object);
@@ -309,6 +316,7 @@ struct Nodes {
     CameraNode default_camera;
     CameraNode *camera; // NULL: none yet
     RootNode *first, *last;
+    uint64_t object_count; // all copies counted
     const SkySphereNode *sky_sphere;
     const FogNode *fogs;
     const RainbowNode *rainbows;

@@ -6,10 +6,6 @@
 // declared tree may be used a thousand times, and grow by itself in a loop, at little cost.
 #include "converter/nodes.h"
 
-// Deeper trees than this come from runaway loops, and would overflow the stack of whoever walks
-// them. A scene file holds no deeper ones either.
-enum { DEPTH_LIMIT = 1000 };
-
 static bool object_type(int keyword, ObjectType *type) {
     switch (keyword) {
     case KW_union:
@@ -73,17 +69,32 @@ ObjectNode *object_create(Converter *cv, int keyword) {
 }
 
 ObjectNode *object_copy(Converter *cv, const ObjectNode *object) {
+    check_limits(cv);
     ObjectNode *copy = arena_copy(cv->arena, object, sizeof *object);
     copy->next = NULL;
     copy->shared = true;
     return copy;
 }
 
+void object_count(Converter *cv, uint64_t *count, const ObjectNode *object) {
+    uint64_t limit = limit_of(cv, LIMIT_OBJECTS);
+    *count += 1 + object->below; // each below the limit
+    if (*count <= limit)
+        return;
+    Loc loc = here(cv);
+    die_at(&loc, "Too many objects: more than %llu with all copies counted %s",
+           (unsigned long long)limit, limit_hint(cv, LIMIT_OBJECTS));
+}
+
+void object_put_below(Converter *cv, ObjectNode *parent, const ObjectNode *part) {
+    object_count(cv, &parent->below, part);
+    check_depth(cv, part->depth + 1, "objects");
+    if (parent->depth <= part->depth)
+        parent->depth = part->depth + 1;
+}
+
 void object_add_child(Converter *cv, ObjectNode *parent, ObjectNode *child) {
-    if (child->depth + 1 >= DEPTH_LIMIT)
-        die_expected(cv, "less than 1000 unions inside one another");
-    if (parent->depth <= child->depth)
-        parent->depth = child->depth + 1;
+    object_put_below(cv, parent, child);
     child->next = NULL;
     if (parent->last)
         parent->last->next = child;

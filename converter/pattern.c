@@ -103,7 +103,6 @@ static void parse_uv_mapping(Converter *cv, PatternUse use, PatternNode *pattern
     static const MapKind kinds[] = {MAP_PIGMENT, MAP_NORMAL, MAP_TEXTURE, MAP_DENSITY};
     const TextureNode *standard = cv->nodes->default_texture;
     MapItem *item = ARENA_NEW(cv->arena, MapItem);
-    MapNode *map = ARENA_NEW(cv->arena, MapNode);
     switch (use) {
     case USE_PIGMENT:
         item->node = parse_pigment_body(cv, standard->pigment);
@@ -118,8 +117,7 @@ static void parse_uv_mapping(Converter *cv, PatternUse use, PatternNode *pattern
         item->node = parse_density_body(cv, NULL);
         break;
     }
-    *map = (MapNode){.kind = kinds[use], .items = item, .count = 1};
-    pattern->map = map;
+    pattern->map = map_create(cv, kinds[use], item, 1);
 }
 
 static bool parse_wave(Converter *cv, PatternNode *pattern, int code) {

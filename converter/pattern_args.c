@@ -89,17 +89,14 @@ static void parse_material_map(Converter *cv, PatternNode *pattern) {
     MapItem *items = ARENA_ARRAY(cv->arena, MapItem, textures.count);
     for (size_t i = 0; i < textures.count; i++)
         items[i].node = textures.items[i];
-    MapNode *map = ARENA_NEW(cv->arena, MapNode);
-    *map = (MapNode){.kind = MAP_TEXTURE, .items = items, .count = (uint32_t)textures.count};
+    pattern->map = map_create(cv, MAP_TEXTURE, items, (uint32_t)textures.count);
     array_free(&textures);
-    pattern->map = map;
     pattern->picture = arena_copy(cv->arena, &picture, sizeof picture);
 }
 
 // tiles { texture{} tile2 texture{} }: a checker whose first texture stands at 1.
 static void parse_tiles(Converter *cv, PatternNode *pattern) {
     MapItem *items = ARENA_ARRAY(cv->arena, MapItem, 2);
-    MapNode *map = ARENA_NEW(cv->arena, MapNode);
     expect(cv, '{', "tiles");
     for (int i = 1; i >= 0; i--) {
         items[i].value = (float)i;
@@ -111,8 +108,7 @@ static void parse_tiles(Converter *cv, PatternNode *pattern) {
             items[i].node = cv->nodes->default_texture;
     }
     expect(cv, '}', "tiles");
-    *map = (MapNode){.kind = MAP_TEXTURE, .items = items, .count = 2};
-    pattern->map = map;
+    pattern->map = map_create(cv, MAP_TEXTURE, items, 2);
 }
 
 static void parse_body_pattern(Converter *cv, PatternUse use, PatternNode *pattern) {

@@ -175,6 +175,7 @@ static void add_root(Converter *cv, ObjectNode *object) {
     Nodes *nodes = cv->nodes;
     RootNode *root = ARENA_NEW(cv->arena, RootNode);
     *root = (RootNode){.object = object, .default_texture = nodes->default_texture};
+    object_count(cv, &nodes->object_count, object);
     if (nodes->last)
         nodes->last->next = root;
     else

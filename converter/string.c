@@ -155,10 +155,11 @@ const char *string_from_literal(Converter *cv, const Token *token, bool file_nam
 // ---- functions --------------------------------------------------------------------------------
 
 static void check_length(Converter *cv, size_t length) {
-    if (length <= MAX_STRING)
+    if (length <= limit_of(cv, LIMIT_STRING))
         return;
     Loc loc = token_loc(cv, cv->language->last);
-    die_at(&loc, "String too long (1 MiB is the limit)");
+    die_at(&loc, "String too long: more than %llu bytes %s",
+           (unsigned long long)limit_of(cv, LIMIT_STRING), limit_hint(cv, LIMIT_STRING));
 }
 
 // chr ( FULL )

@@ -85,7 +85,8 @@ static const PatternNode *unfiltered_pigment(Converter *cv, const PatternNode *p
             arena_copy(cv->arena, node.map->items, node.map->count * sizeof *node.map->items);
         for (uint32_t i = 0; i < node.map->count; i++)
             items[i].color = filter_to_transmit(items[i].color);
-        MapNode map = {.kind = MAP_COLOR, .items = items, .count = node.map->count};
+        MapNode map = *node.map;
+        map.items = items;
         node.map = arena_copy(cv->arena, &map, sizeof map);
     }
     return copy_pattern(cv, &node);

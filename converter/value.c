@@ -44,11 +44,15 @@ const Value *accept_value(Converter *cv, ValueType type) {
 
 // ---- arrays -----------------------------------------------------------------------------------
 
+_Noreturn static void die_elements(Converter *cv, double count, const Loc *loc) {
+    die_at(loc, "Too many array elements: %.0f here, %llu in all are the limit %s", count,
+           (unsigned long long)limit_of(cv, LIMIT_ELEMENTS), limit_hint(cv, LIMIT_ELEMENTS));
+}
+
 static Array *new_array(Converter *cv, const Array *shape, const Loc *loc) {
     Language *l = cv->language;
-    if (shape->count > MAX_ELEMENTS || l->elements + shape->count > MAX_ELEMENTS)
-        die_at(loc, "Too many array elements: %zu here, %d in all are the limit", shape->count,
-               MAX_ELEMENTS);
+    if (shape->count > limit_of(cv, LIMIT_ELEMENTS) - l->elements)
+        die_elements(cv, (double)shape->count, loc);
     l->elements += shape->count;
     Array *array = ARENA_NEW(cv->arena, Array);
     *array = *shape;
@@ -114,14 +118,12 @@ Array *parse_array(Converter *cv) {
         double size = parse_float(cv) + EPSILON;
         if (!(size >= 1))
             die_at(&at, "Invalid dimension size for an array: %g", size - EPSILON);
-        if (size > MAX_ELEMENTS)
-            die_at(&at, "Too many array elements: %.0f here, %d in all are the limit", size,
-                   MAX_ELEMENTS);
+        if (size > (double)limit_of(cv, LIMIT_ELEMENTS))
+            die_elements(cv, size, &at);
         shape.sizes[shape.dimensions++] = (size_t)size;
         shape.count *= (size_t)size;
-        if (shape.count > MAX_ELEMENTS)
-            die_at(&at, "Too many array elements: %zu here, %d in all are the limit", shape.count,
-                   MAX_ELEMENTS);
+        if (shape.count > limit_of(cv, LIMIT_ELEMENTS))
+            die_elements(cv, (double)shape.count, &at);
         expect(cv, ']', "array");
     }
     if (!shape.dimensions)

@@ -39,8 +39,10 @@ static void convert(void *arg) {
     convert_scene(&job->options, job->arena);
 }
 
+static uint64_t token_limit; // 0: the default
+
 static RenderOptions small_options(const char *path) {
-    RenderOptions options = {.width = 4, .height = 3};
+    RenderOptions options = {.width = 4, .height = 3, .limits[LIMIT_TOKENS] = token_limit};
     options.input = path;
     return options;
 }
@@ -311,13 +313,13 @@ static void test_nesting(void **state) {
 
 static void test_endless(void **state) {
     (void)state;
-    setenv("QIPOV_MAX_TOKENS", "100000", 1);
+    token_limit = 100000;
     expect_wrong("\n  #while (1) #declare A = 1; #end",
                  ":2:4: error: this #while loop has run too");
     expect_wrong("#for (I, 0, 1e300) #end", "this #for loop has run too long");
     expect_wrong("#for (I, 0, 1, 1e-300) #end", "increment must be non-zero");
     expect_wrong("#for (I, 0, 1e300) #for (J, 0, 1) #end #end", ":1:2: error: this #for loop");
-    unsetenv("QIPOV_MAX_TOKENS");
+    token_limit = 0;
     expect_wrong("#macro M() M() #end M()", "does 'M' call itself");
     expect_wrong("#macro A() B() #end #macro B() A() #end A()", "Too many nested macro calls");
     expect_wrong("#macro M(N) (N <= 0 ? 0 : 1 + M(N - 1)) #end #declare A = M(5);", "too");
@@ -343,6 +345,116 @@ static void test_endless(void **state) {
                          "#declare A = f(1);", "", 60);
     expect_wrong(calls, "has run too long");
     free(calls);
+}
+
+// What is built up in a loop, name by name, nests without a brace in the text, and may be copied
+// more often than there are atoms. Before: stack overflows at the clips and the maps, and no end of
+// the unions.
+static void test_built_up(void **state) {
+    (void)state;
+    static const struct {
+        const char *first, *step, *last, *message;
+    } cases[] = {
+        {"#declare S = sphere { 0, 1 }", "#declare S = union { object { S } sphere { 0, 1 } }", "S",
+         "1000 objects inside one another"},
+        {"#declare S = sphere { 0, 1 }", "#declare S = sphere { 0, 1 clipped_by { S } }", "S",
+         "1000 objects inside one another"},
+        {"#declare S = sphere { 0, 1 }", "#declare S = sphere { 0, 1 bounded_by { S } }", "S",
+         "1000 objects inside one another"},
+        {"#declare S = sphere { 0, 1 }", "#declare S = union { object { S } object { S } }", "S",
+         "Too many objects"},
+        {"#declare S = sphere { 0, 1 }",
+         "#declare S = union { object { S } object { S translate x } }", "S", "Too many objects"},
+        {"#declare P = pigment { rgb 1 }",
+         "#declare P = pigment { gradient x pigment_map { [0 P] [1 rgb 1] } }",
+         "sphere { 0, 1 pigment { P } }", "1000 maps of patterns inside one another"},
+        {"#declare P = pigment { rgb 1 }",
+         "#declare P = pigment { gradient x pigment_map { [0 P] [1 P scale 2] } }", "",
+         "1000 maps of patterns inside one another"},
+        {"#declare P = normal { bumps }",
+         "#declare P = normal { checker normal { P } normal { dents } }", "",
+         "1000 maps of patterns inside one another"},
+        {"#declare P = texture { }",
+         "#declare P = texture { gradient x texture_map { [0 P] [1 P] } }", "",
+         "1000 maps of patterns inside one another"},
+        {"#declare P = texture { }", "#declare P = texture { tiles { texture { P } tile2 } }", "",
+         "1000 maps of patterns inside one another"},
+        {"#declare P = density { rgb 1 }",
+         "#declare P = density { gradient x density_map { [0 P] [1 P] } }", "",
+         "1000 maps of patterns inside one another"},
+        {"#declare S = array[1] { 1 }", "#declare T = array[1]; #declare T[0] = S; #declare S = T;",
+         "", "Nested too deeply"},
+        {"#declare F = array[9999]; #declare F[0] = function { x }",
+         "#declare F[I] = function { F[I - 1](x, y, z) + 1 }", "", "call functions too deeply"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char text[1024];
+        snprintf(text, sizeof text, "%s\n#for (I, 1, 5000) %s #end\n%s\n", cases[i].first,
+                 cases[i].step, cases[i].last);
+        expect_wrong(text, cases[i].message);
+    }
+}
+
+// Each limit can be moved, and says which it was.
+static void test_limits(void **state) {
+    (void)state;
+    static const struct {
+        Limit limit;
+        uint64_t value;
+        const char *text, *message;
+    } cases[] = {
+        {LIMIT_CALLS, 20, "#macro M(N) #if (N) M(N - 1) #end #end M(20)",
+         "Too many nested macro calls (20)"},
+        {LIMIT_ELEMENTS, 99, "#declare A = array[10][10];",
+         "Too many array elements: 100 here, 99"},
+        {LIMIT_INCLUDES, 3, "#include \"program.pov\"", "Too many nested include files (3)"},
+        {LIMIT_MEGABYTES, 1, "#for (I, 1, 1e6) sphere { I, 1 } #end", "more than 1 MB"},
+        {LIMIT_NESTING, 20, "#declare A = ((((((((((((((((((((1))))))))))))))))))));",
+         "Nested too deeply (20 levels"},
+        {LIMIT_OBJECTS, 9, "#for (I, 1, 10) sphere { I, 1 } #end", "Too many objects: more than 9"},
+        {LIMIT_SECONDS, 1, "#while (1) #end", "it has been read for 1 s"},
+        {LIMIT_STRING, 5, "#declare S = concat(\"abc\", \"def\")", "more than 5 bytes"},
+        {LIMIT_STRING, 5, "#declare S = \"abcdef\"", "String too long"},
+        {LIMIT_TOKENS, 100, "#for (I, 1, 1e6) #end", "more than 100 tokens were read"},
+    };
+    char path[256];
+    snprintf(path, sizeof path, "%s/program.pov", folder);
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        write_program(path, cases[i].text, strlen(cases[i].text));
+        RenderOptions options = small_options(path);
+        options.limits[LIMIT_TOKENS] = (uint64_t)1e12;
+        options.limits[cases[i].limit] = cases[i].value;
+        char *message = run_options(options), hint[64];
+        snprintf(hint, sizeof hint, "(--limit %s=", options_limit_name(cases[i].limit));
+        assert_non_null(message);
+        if (!strstr(message, cases[i].message) || !strstr(message, hint))
+            fail_msg("want '%s' and '%s' in: %s", cases[i].message, hint, message);
+        free(message);
+        options.limits[cases[i].limit] *= 100;
+        if (cases[i].limit == LIMIT_SECONDS || cases[i].limit == LIMIT_INCLUDES ||
+            cases[i].value == 1 || cases[i].limit == LIMIT_TOKENS)
+            continue; // what has no end
+        message = run_options(options);
+        if (message)
+            fail_msg("within the limit it must be right, but: %s", message);
+    }
+}
+
+// However far the limit is moved, the stack does not overflow.
+static void test_stack(void **state) {
+    (void)state;
+    char path[256], *text = repeat("#declare A = ", "(", "1", ")", 2000000);
+    snprintf(path, sizeof path, "%s/deep.pov", folder);
+    write_program(path, text, strlen(text));
+    free(text);
+    RenderOptions options = small_options(path);
+    options.limits[LIMIT_NESTING] = (uint64_t)1e12;
+    options.limits[LIMIT_MEGABYTES] = 100000;
+    char *message = run_options(options);
+    assert_non_null(message);
+    if (!strstr(message, "for the stack of this program"))
+        fail_msg("%s", message);
+    free(message);
 }
 
 // ---- mutations --------------------------------------------------------------------------------
@@ -379,7 +491,7 @@ static size_t mutate(Rng *r, const char *text, size_t size, char *out, size_t ro
 static void test_mutations(void **state) {
     (void)state;
     char *paths[500], out_path[256];
-    setenv("QIPOV_MAX_TOKENS", "30000", 1);
+    token_limit = 30000;
     snprintf(out_path, sizeof out_path, "%s/mutation.pov", folder);
     size_t count = list_programs("tests/sdl", paths, 100), right = 0, wrong = 0;
     count += list_programs("tests/errors", paths + count, 400);
@@ -400,7 +512,7 @@ static void test_mutations(void **state) {
         }
         arena_destroy(arena);
     }
-    unsetenv("QIPOV_MAX_TOKENS");
+    token_limit = 0;
     free_programs(paths, count);
     assert_true(right > 0 && wrong > 0);
 }
@@ -417,7 +529,7 @@ static void test_interrupt(void **state) {
     pid_t child = fork();
     assert_true(child >= 0);
     if (child == 0) {
-        setenv("QIPOV_MAX_TOKENS", "1e12", 1);
+        token_limit = 1000000000000;
         signal(SIGINT, SIG_DFL);
         dup2(ends[1], STDERR_FILENO);
         free(run_file(path));
@@ -448,7 +560,9 @@ int main(void) {
         cmocka_unit_test(test_errors),        cmocka_unit_test(test_chain),
         cmocka_unit_test(test_options),       cmocka_unit_test(test_files),
         cmocka_unit_test(test_nesting),       cmocka_unit_test(test_endless),
-        cmocka_unit_test(test_mutations),     cmocka_unit_test(test_interrupt),
+        cmocka_unit_test(test_built_up),      cmocka_unit_test(test_limits),
+        cmocka_unit_test(test_stack),         cmocka_unit_test(test_mutations),
+        cmocka_unit_test(test_interrupt),
     };
     return cmocka_run_group_tests_name("language", tests, set_up, NULL);
 }

@@ -225,7 +225,7 @@ static void wrong_words(void **state) {
         {"Widht=3", "'Widht=3'", "Width="},
         {"Antialiass=on", "'Antialiass=on'", "Antialias="},
         {"--metod qi", "'--metod'", "--method"},
-        {"--method foo", "'--method'", "qi-paper"},
+        {"--method foo", "'--method foo'", "qi-paper"},
         {"--tolerance", "'--tolerance'", "value"},
         {"--tolerance nan", "'--tolerance'", "share"},
         {"--strict=1", "'--strict=1'", "no value"},
@@ -265,6 +265,12 @@ static void words_of_the_other_programs(void **state) {
     assert_int_equal(o.remark_count, 4);
     assert_false(o.remarks[0].warning);
     assert_string_equal(o.remarks[1].text, "POV-Ray's A has no effect in this program");
+    assert_true(parse(PROGRAM_POV2QI, "a.pov --limit tokens=1e9 --limit Nesting=20", arena, &o));
+    assert_true(o.limits[LIMIT_TOKENS] == 1000000000 && o.limits[LIMIT_NESTING] == 20);
+    assert_true(o.limits[LIMIT_CALLS] == 0);
+    refuses(PROGRAM_POV2QI, arena, "--limit token=1", "token=1", "the limits are calls, elements");
+    refuses(PROGRAM_POV2QI, arena, "--limit tokens=0", "", "positive number");
+    refuses(PROGRAM_POV2QI, arena, "--limit tokens", "tokens", "positive number");
     refuses(PROGRAM_POV2QI, arena, "--method qi", "'--method'", "no such option");
 
     assert_true(

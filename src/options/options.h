@@ -14,6 +14,7 @@
 #include <limits.h>
 #include <stdbool.h>
 #include <stddef.h>
+#include <stdint.h>
 
 typedef struct {
     const char *name;
@@ -47,6 +48,20 @@ typedef enum {
     AOV_OBJECT,
     AOV_COUNT,
 } AovKind;
+
+// How much the reading of a scene may take. ORDER limit (limit_names)
+typedef enum {
+    LIMIT_CALLS,     // macro calls inside one another
+    LIMIT_ELEMENTS,  // of all arrays
+    LIMIT_INCLUDES,  // inside one another
+    LIMIT_MEGABYTES, // of memory
+    LIMIT_NESTING,   // of braces and parentheses
+    LIMIT_OBJECTS,   // all copies counted
+    LIMIT_SECONDS,
+    LIMIT_STRING, // bytes of one
+    LIMIT_TOKENS, // read in all, loops and macros as often as they run
+    LIMIT_COUNT,
+} Limit;
 
 typedef struct {
     const char *input;   // +I, Input_File_Name=, or a bare name ending in .pov or .json; NULL: none
@@ -103,6 +118,7 @@ typedef struct {
     bool check;                                  // pov2qi: read the scene, write nothing
     bool requires, json;                         // pov2qi: list what the scene needs, write nothing
     bool help, show_version, manual, completion; // what options_inform prints
+    uint64_t limits[LIMIT_COUNT];                // --limit; 0: not given
     // qicompare only.
     const char *pictures[2]; // bare names of pictures
     int picture_count;
@@ -126,6 +142,7 @@ typedef struct {
 typedef enum { PROGRAM_QIRENDER, PROGRAM_POV2QI, PROGRAM_QICOMPARE } OptionsProgram;
 
 RenderOptions options_default(void);
+const char *options_limit_name(Limit limit);
 
 // Parses argv[1..]. A wrong word prints a message that names it and suggests the nearest, and a
 // hint at --help; the return value is then false (exit status 2). Memory in arena. For qicompare,

@@ -325,6 +325,32 @@ static bool apply_isa(Parse *parse, const OptionRow *row, bool on, const char *v
     return complain(parse, "the instruction sets are scalar, avx2, avx512");
 }
 
+// ORDER limit
+static const char *const limit_names[] = {"calls",   "elements", "includes", "megabytes", "nesting",
+                                          "objects", "seconds",  "string",   "tokens"};
+_Static_assert(sizeof limit_names / sizeof *limit_names == LIMIT_COUNT, "a name for each limit");
+
+const char *options_limit_name(Limit limit) { return limit_names[limit]; }
+
+static bool apply_limit(Parse *parse, const OptionRow *row, bool on, const char *value) {
+    (void)row, (void)on;
+    size_t length = strcspn(value, "=");
+    for (int i = 0; i < LIMIT_COUNT; i++) {
+        if (strlen(limit_names[i]) != length || strncasecmp(value, limit_names[i], length) != 0)
+            continue;
+        double number;
+        if (value[length] != '=' || !option_number(value + length + 1, &number) || number < 1)
+            return complain(parse, "a positive number must follow, as in tokens=1e9");
+        parse->options->limits[i] = number < 1e15 ? (uint64_t)number : (uint64_t)1e15;
+        return true;
+    }
+    size_t at = (size_t)snprintf(parse->why, sizeof parse->why, "the limits are");
+    for (int i = 0; i < LIMIT_COUNT && at < sizeof parse->why; i++)
+        at += (size_t)snprintf(parse->why + at, sizeof parse->why - at, "%s %s", i ? "," : "",
+                               limit_names[i]);
+    return false;
+}
+
 // ---- the table
 // ------------------------------------------------------------------------------------
 
@@ -480,6 +506,9 @@ const OptionRow option_rows[] = {
      .help = "likewise: without a window nothing waits"},
     {OPTION_FLAG, NULL, NULL, "strict", NULL, IN_ALL, FIELD(strict),
      .help = "what is not modelled is an error instead of a warning"},
+    {OPTION_SPECIAL, NULL, NULL, "limit", "name=n", IN_ALL, .apply = apply_limit,
+     .help = "the most that reading a scene may take: calls, elements (of arrays), includes, "
+             "megabytes, nesting, objects, seconds, string (bytes), tokens"},
     {OPTION_FLAG, NULL, NULL, "help", NULL, IN_ALL, FIELD(help), .help = "this text"},
     {OPTION_FLAG, NULL, NULL, "version", NULL, IN_ALL, FIELD(show_version),
      .help = "the version of this program"},

@@ -258,9 +258,11 @@ bool option_word(Parse *parse, const char *word, const char *next, int *used) {
             value = next;
             *used = 2;
         }
-        if (!apply_row(parse, row, true, value ? value : ""))
-            return option_refuse(parse, word, parse->why);
-        return true;
+        if (apply_row(parse, row, true, value ? value : ""))
+            return true;
+        if (*used == 2)
+            word = arena_printf(parse->arena, "%s %s", word, value);
+        return option_refuse(parse, word, parse->why);
     }
     return refuse_unknown(parse, word, FORM_WORD, word + 2, length);
 }

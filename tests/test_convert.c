@@ -136,7 +136,7 @@ static void trees_are_copied_when_changed(void **state) {
              "object { A translate x }");
     assert_dies("#declare A = sphere { 0, 1 } #declare I = 0; #while (I < 1500)"
                 "#declare A = union { object { A } sphere { I, 1 } } #declare I = I + 1; #end A",
-                "1000 unions");
+                "1000 objects inside one another");
 }
 
 static void inverse_objects(void **state) {

@@ -227,7 +227,7 @@ static void wrong_words(void **state) {
         {"--metod qi", "'--metod'", "--method"},
         {"--method foo", "'--method foo'", "qi-paper"},
         {"--tolerance", "'--tolerance'", "value"},
-        {"--tolerance nan", "'--tolerance'", "share"},
+        {"--tolerance nan", "'--tolerance nan'", "share"},
         {"--strict=1", "'--strict=1'", "no value"},
         {"--binary", "'--binary'", "no such option"},
         {"--fail 1", "'--fail'", "no such option"},

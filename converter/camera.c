@@ -296,9 +296,7 @@ static bool parse_rest(Converter *cv, Reader *reader, const Token *token) {
         return true;
     case KW_normal:
         next_token(cv);
-        parse_normal_block(cv, NULL);
-        note_gap(cv, &reader->node->gaps, token,
-                 "the camera's normal is not modelled: the picture is not bent");
+        reader->node->normal = parse_normal_block(cv, reader->node->normal);
         return true;
     default:
         return false;

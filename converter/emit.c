@@ -60,13 +60,15 @@ static uint32_t store_interior(Emitter *e, const InteriorNode *node) {
 // Before 3.1 ior and caustics stood in the finish. A plain top layer still passes them on.
 static bool finish_has_interior(const TextureNode *texture) {
     return texture && texture_is_plain(texture) &&
-           (texture->finish->ior >= 0 || texture->finish->caustics >= 0);
+           (texture->finish->ior >= 0 || texture->finish->caustics >= 0 ||
+            texture->finish->refraction != 1.0F);
 }
 
 static void take_from_finish(Emitter *e, uint32_t index, const TextureNode *texture) {
-    if (index == NO_INDEX || !finish_has_interior(texture))
+    if (index == NO_INDEX || !texture || !texture_is_plain(texture))
         return;
     Interior *interior = &e->interiors.items[index];
+    interior->refraction = texture->finish->refraction;
     if (texture->finish->ior >= 0)
         interior->ior = texture->finish->ior;
     if (texture->finish->caustics >= 0)
@@ -428,6 +430,9 @@ static void emit_camera(Emitter *e) {
     const CameraNode *camera = nodes->camera ? nodes->camera : &nodes->default_camera;
     emit_gaps(e, camera->gaps);
     e->scene->camera = camera->camera;
+    e->scene->camera.has_normal = camera->normal != NULL;
+    if (camera->normal)
+        e->scene->camera.normal = emit_normal(e, camera->normal, false);
 }
 
 static void emit_sky(Emitter *e) {

@@ -16,10 +16,6 @@ static void build_layers(Emitter *e, const TextureNode *node, bool no_bump_scale
         to->pigment = emit_pigment(e, layer->pigment);
         to->finish = layer->finish->finish;
         emit_gaps(e, layer->finish->gaps);
-        if (layer->finish->refraction != 1.0F)
-            emit_gap(e, layer->finish->refraction_loc,
-                     "refraction as a factor of light is not modelled: what is seen through the "
-                     "object is not dimmed by it");
         to->normal = NO_INDEX;
         if (layer->normal)
             to->normal =

@@ -133,12 +133,10 @@ static bool parse_number(Converter *cv, FinishNode *node, int code) {
     default:
         return false;
     }
-    const Token *token = next_token(cv);
+    next_token(cv);
     *to = number(cv);
     if (code == KW_caustics)
         node->caustics *= 45.0F; // the unit that the renderer expects
-    if (code == KW_refraction)
-        node->refraction_loc = keep_place(cv, token);
     return true;
 }
 

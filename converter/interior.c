@@ -26,7 +26,10 @@ static bool parse_interior_number(Converter *cv, InteriorNode *node, int code) {
         next_token(cv);
         interior->fade_color = parse_color3(cv);
         return true;
-    case KW_refraction: // without effect: the finish's value always replaces it
+    case KW_refraction: // the finish of a plain texture replaces it
+        next_token(cv);
+        interior->refraction = (float)parse_float(cv);
+        return true;
     case KW_dispersion_samples:
         next_token(cv);
         parse_float(cv);

@@ -133,7 +133,6 @@ typedef struct {
     Finish finish;
     float ior, caustics; // old places of the interior's values; < 0: not given
     float refraction;    // 1: none
-    const Loc *refraction_loc;
     const Gap *gaps;
 } FinishNode;
 
@@ -199,6 +198,7 @@ typedef struct {
     Camera camera; // its vectors are final
     Vec3 sky, look_at;
     bool has_look_at;
+    const PatternNode *normal;
     bool has_focus; // camera.blur.focal_distance is known
     const Gap *gaps;
 } CameraNode;

@@ -109,7 +109,9 @@ static Transform random_transform(Rng *rng) {
     X(int, blur.samples)                                                                           \
     X(int, blur.min_samples)                                                                       \
     X(double, blur.confidence)                                                                     \
-    X(double, blur.variance)
+    X(double, blur.variance)                                                                       \
+    X(bool, has_normal)                                                                            \
+    X(uint32_t, normal)
 #define LIGHT_MEMBERS(X)                                                                           \
     X(LightType, type)                                                                             \
     X(Vec3, location)                                                                              \
@@ -193,7 +195,11 @@ static Transform random_transform(Rng *rng) {
     X(Rgb, reflection_max) X(bool, reflection_fresnel) X(bool, conserve_energy)
 #define INTERIOR_MEMBERS(X)                                                                        \
     X(float, ior)                                                                                  \
-    X(float, caustics) X(float, fade_distance) X(float, fade_power) X(Rgb, fade_color)
+    X(float, caustics)                                                                             \
+    X(float, fade_distance)                                                                        \
+    X(float, fade_power)                                                                           \
+    X(Rgb, fade_color)                                                                             \
+    X(float, refraction)
 #define OBJECT_FLAGS(X)                                                                            \
     X(bool, no_shadow)                                                                             \
     X(bool, no_image)                                                                              \
@@ -514,6 +520,7 @@ static Interior make_interior(Rng *rng) {
         .fade_distance = random_float(rng),
         .fade_power = random_float(rng),
         .fade_color = random_rgb(rng),
+        .refraction = random_float(rng),
     };
 }
 
@@ -710,6 +717,9 @@ Scene *random_scene(Rng *rng, Arena *arena) {
         scene->interiors[i] = make_interior(rng);
     make_sky_sphere(rng, arena, scene);
     make_air(rng, arena, scene);
+    scene->camera.has_normal = random_bool(rng);
+    if (scene->camera.has_normal)
+        scene->camera.normal = random_below(rng, scene->normal_count);
     scene->objects = ARENA_ARRAY(arena, Object, MAX_OBJECTS);
     scene->root_count = make_objects(rng, arena, scene, 0, &scene->roots);
     scene->projection_count = make_objects(rng, arena, scene, 2, &scene->projections);

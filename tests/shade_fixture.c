@@ -193,7 +193,8 @@ static Color trace_with(void *tracer, const Ray *ray) { return tracer_trace(trac
 
 static void trace_picture(const Scene *scene, Tracer *tracer, int width, int height,
                           Color *pixels) {
-    const SampleOptions options = {.method = 0};
+    const Textures textures = textures_make(scene);
+    const SampleOptions options = {.method = 0, .textures = &textures};
     Sampler *sampler = sampler_create(&options, &scene->camera, width, height, width + height);
     sampler_tile(sampler, (PixelRect){0, 0, width, height}, trace_with, tracer, pixels);
     sampler_destroy(sampler);

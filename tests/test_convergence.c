@@ -50,7 +50,7 @@ typedef struct {
 static void look(const Scene *scene, Seen *seen) {
     PatchSetOptions options = patchset_options_default();
     World *world = world_create(scene, &options);
-    const CameraView view = camera_view(&scene->camera, WIDTH, HEIGHT);
+    const CameraView view = camera_view(&scene->camera, NULL, WIDTH, HEIGHT);
     for (int y = 0; y < HEIGHT; y++) {
         for (int x = 0; x < WIDTH; x++) {
             Seen *s = &seen[y * WIDTH + x];

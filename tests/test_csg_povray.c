@@ -123,7 +123,7 @@ static int count_differences(const uint16_t *want, const char *text) {
     TraceOptions options = {.quality = 9};
     Shading *shading = shading_create(scene, world, &options);
     Tracer *tracer = tracer_create(shading);
-    const CameraView view = camera_view(&scene->camera, WIDTH, HEIGHT);
+    const CameraView view = camera_view(&scene->camera, NULL, WIDTH, HEIGHT);
     int count = 0;
     for (int i = 0; i < WIDTH * HEIGHT; i++) {
         Ray ray;

@@ -57,6 +57,20 @@ static void projections(void **state) {
     check_cameras(rows, COUNT(rows), 32, 24);
 }
 
+// The point at which the normal's pattern is asked depends on the camera's type.
+static void normals(void **state) {
+    (void)state;
+    static const char *const rows[] = {
+        NEAR "normal { bumps 0.3 scale 0.1 }",
+        NEAR "normal { ripples 0.2 frequency 20 phase 0.3 translate 0.1 } angle 70",
+        "fisheye angle 120 normal { waves 0.3 scale 0.5 } " NEAR,
+        "cylinder 1 angle 160 normal { wrinkles 0.4 scale 0.3 } " NEAR,
+        "spherical normal { gradient x 0.3 slope_map { [0 <0, 1>] [1 <1, 0>] } scale 0.2 } " NEAR,
+        NEAR "normal { dents 0.5 scale 0.2 } aperture 0.1 blur_samples 7 focal_point 0",
+    };
+    check_cameras(rows, COUNT(rows), 32, 24);
+}
+
 #define LENS "location <0.3, 1.5, -6> aperture 0.4 focal_point <0, 0.8, 0> "
 
 // Of each kind of lens grid, and with fewer and more samples than it has. Most of the pixels end
@@ -83,6 +97,7 @@ static void focal_blur(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(projections),
+        cmocka_unit_test(normals),
         cmocka_unit_test(focal_blur),
     };
     return cmocka_run_group_tests_name("shade_cameras", tests, NULL, NULL);

@@ -44,7 +44,7 @@ static void check_layers(int version) {
     char text[1024];
     snprintf(text, sizeof text, "%s %s %s interior { ior 1.2 }", bottom, middle, top);
     fixture_add_sphere(f, vec3(0, 0, 0), 1.0, text, fixture_texture(f, layers, 3),
-                       fixture_interior(f, (Interior){.ior = 1.2f}));
+                       fixture_interior(f, (Interior){.refraction = 1, .ior = 1.2f}));
     snprintf(text, sizeof text, "%s %s", bottom, top);
     Layer two[2] = {layers[0], layers[2]};
     fixture_add_sphere(f, vec3(2.5, 0, 0), 1.0, text, fixture_texture(f, two, 2), NO_INDEX);
@@ -128,7 +128,7 @@ static void add_mirrors_and_glass(Fixture *f) {
     uint32_t clear = fixture_one_layer(f, (Color){0.9f, 0.9f, 1.0f, 0.0f, 0.8f}, (Finish)FINISH());
     fixture_add_sphere(f, vec3(0.0, 0.3, -2), 0.6,
                        "pigment { rgbt <0.9, 0.9, 1, 0.8> } interior { ior 1.4 }", clear,
-                       fixture_interior(f, (Interior){.ior = 1.4f}));
+                       fixture_interior(f, (Interior){.refraction = 1, .ior = 1.4f}));
     fixture_add_sphere(f, vec3(0.8, 0.1, -4), 0.5, "pigment { rgbt <0.9, 0.9, 1, 0.8> }", clear,
                        NO_INDEX);
 }
@@ -186,8 +186,9 @@ static void nested_interiors(void **state) {
                      {{-0.6, -1.1, 0}, 0.8, 1.4f}};
         for (int i = 0; i < COUNT(balls); i++) {
             snprintf(text, sizeof text, "%s interior { ior %g }", look, (double)balls[i].ior);
-            fixture_add_sphere(f, balls[i].center, balls[i].radius, text, clear,
-                               fixture_interior(f, (Interior){.ior = balls[i].ior}));
+            fixture_add_sphere(
+                f, balls[i].center, balls[i].radius, text, clear,
+                fixture_interior(f, (Interior){.refraction = 1, .ior = balls[i].ior}));
         }
         if (inside)
             fixture_add_sphere(
@@ -196,7 +197,8 @@ static void nested_interiors(void **state) {
                 "fade_distance 1 fade_power 1 fade_color rgb <0.9, "
                 "0.5, 0.5> }",
                 fixture_one_layer(f, (Color){0.9f, 0.9f, 0.9f, 0.0f, 0.9f}, (Finish)FINISH()),
-                fixture_interior(f, (Interior){.ior = 1.2f,
+                fixture_interior(f, (Interior){.refraction = 1,
+                                               .ior = 1.2f,
                                                .fade_distance = 1.0f,
                                                .fade_power = 1.0f,
                                                .fade_color = {0.9f, 0.5f, 0.5f}}));
@@ -345,7 +347,7 @@ static void patches(void **state) {
     add_patch(f, 1, "pigment { uv_mapping " CHECKS " }" PHONG " double_illuminate", by_pigment);
     two_sided.interior_texture =
         fixture_one_layer(f, (Color){0.3f, 0.3f, 1.0f, 0.7f, 0.0f}, (Finish)FINISH());
-    two_sided.interior = fixture_interior(f, (Interior){.ior = 1.3f});
+    two_sided.interior = fixture_interior(f, (Interior){.refraction = 1, .ior = 1.3f});
     add_patch(f, 2,
               "texture { pigment { " CHECKS " }" PHONG " } interior_texture { pigment { rgbf "
               "<0.3, 0.3, 1, 0.7> } } interior { ior 1.3 }",

@@ -62,7 +62,7 @@ Light light_default(LightType type) {
     return light;
 }
 
-Interior interior_default(void) { return (Interior){.ior = 1.0f}; }
+Interior interior_default(void) { return (Interior){.ior = 1.0f, .refraction = 1.0f}; }
 
 Fog fog_default(void) {
     return (Fog){.up = {0, 1, 0}, .turbulence = turbulence_default(), .turb_depth = 0.5f};
@@ -177,6 +177,7 @@ bool object_is_tree(const Object *object) {
     X(bump_map)                                                                                    \
     X(bumps)                                                                                       \
     X(caustics)                                                                                    \
+    X(camera_normal)                                                                               \
     X(cells)                                                                                       \
     X(checker)                                                                                     \
     X(clipped_by)                                                                                  \
@@ -463,6 +464,7 @@ static void collect_objects(const Scene *scene, FeatureSet *set) {
 void scene_collect_requires(Scene *scene, Arena *arena) {
     FeatureSet set = {{false}};
     need(&set, CAMERA_FEATURES[scene->camera.type], true);
+    need(&set, FEATURE_camera_normal, scene->camera.has_normal);
     need(&set, FEATURE_focal_blur, scene->camera.has_blur);
     need(&set, FEATURE_sky_sphere, scene->has_sky_sphere);
     need(&set, FEATURE_fog, scene->fog_count > 0);

@@ -75,6 +75,8 @@ typedef struct {
     double spherical_deg[2]; // spherical: across and up; default 360, 180
     bool has_blur;
     FocalBlur blur;
+    bool has_normal;
+    uint32_t normal; // bends the rays, as if each were the normal of the picture's plane
 } Camera;
 
 // ---- lights ---------------------------------------------------------------------------------
@@ -394,6 +396,7 @@ typedef struct {
     float caustics; // as written x 45
     float fade_distance, fade_power;
     Rgb fade_color;
+    float refraction; // what is seen through a surface is scaled by it; default 1
 } Interior;
 
 // ---- objects --------------------------------------------------------------------------------

@@ -67,6 +67,11 @@ static const Field CAMERA_FIELDS[] = {
      AT(Camera, blur),
      .link = offsetof(Camera, has_blur),
      .record = &FOCAL_BLUR},
+    {.name = "normal",
+     .type = FIELD_INDEX,
+     .presence = FIELD_FLAGGED,
+     AT(Camera, normal),
+     .link = offsetof(Camera, has_normal)},
     END,
 };
 static void default_camera(void *out) { *(Camera *)out = camera_default(); }
@@ -144,6 +149,7 @@ static const Field INTERIOR_FIELDS[] = {
     FLOAT(Interior, fade_distance, "fade_distance"),
     FLOAT(Interior, fade_power, "fade_power"),
     RGB(Interior, fade_color, "fade_color"),
+    FLOAT(Interior, refraction, "refraction"),
     END,
 };
 static void default_interior(void *out) { *(Interior *)out = interior_default(); }

@@ -56,6 +56,10 @@ static void check_camera(const Check *c) {
     check_numbers(c, &path, "spherical_angles", camera->spherical_deg, 2);
     if (camera->has_blur)
         check_focal_blur(c, &path, &camera->blur);
+    if (camera->has_normal) {
+        const FieldPath normal = path_field(&path, "normal");
+        check_index(c, &normal, camera->normal, c->scene->normal_count, "normal");
+    }
     if (!(vec_length(camera->direction) > 0)) {
         const FieldPath direction = path_field(&path, "direction");
         refuse(c, &direction, "it has no length");
@@ -102,6 +106,7 @@ static void check_interior(const Check *c, const FieldPath *path, const Interior
     check_float(c, path, "fade_distance", interior->fade_distance);
     check_float(c, path, "fade_power", interior->fade_power);
     check_rgb(c, path, "fade_color", interior->fade_color);
+    check_float(c, path, "refraction", interior->refraction);
 }
 
 static void check_sky_sphere(const Check *c) {

@@ -87,7 +87,8 @@ ImageLayers *aov_render(const Scene *scene, const World *world, const RenderOpti
     layers->pixels = ARENA_ARRAY(arena, float, count *(size_t)channels);
     const uint32_t *patch_of = number_patches(scene, arena);
     PixelRect area = render_area(o);
-    const CameraView view = camera_view(&scene->camera, o->width, o->height);
+    const Textures textures = textures_make(scene);
+    const CameraView view = camera_view(&scene->camera, &textures, o->width, o->height);
 #pragma omp parallel for schedule(dynamic, 1)
     for (int y = area.top; y < area.bottom; y++)
         for (int x = area.left; x < area.right; x++) {

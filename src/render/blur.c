@@ -295,7 +295,7 @@ Color blur_trace(const Blur *blur, const CameraView *view, double x, double y, S
             place_in_pixel(seed + count, &dx, &dy);
             if (camera_aim(view, x + dx, y + dy, &ray, &a, &b)) {
                 deflect(blur, &blur->points[count], x + dx + 0.5, y + dy - 0.5, &ray);
-                ray.dir = vec_normalize(ray.dir);
+                ray.dir = camera_bend(view, ray.dir, a, b);
                 c = trace(context, &ray);
                 ++*rays;
                 sum.r += c.r, sum.g += c.g, sum.b += c.b;

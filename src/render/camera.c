@@ -3,6 +3,8 @@
 // on which side of an edge a sample falls.
 #include "render/camera.h"
 
+#include "texture/normal.h"
+
 #include <math.h>
 
 static const double DEGREE = 0.01745329251994329576923690768489;      // pi / 180
@@ -14,8 +16,9 @@ static bool wants_unit_vectors(CameraType type) {
            type != CAMERA_SPHERICAL;
 }
 
-CameraView camera_view(const Camera *camera, int width, int height) {
+CameraView camera_view(const Camera *camera, const Textures *textures, int width, int height) {
     CameraView view = {.camera = camera,
+                       .textures = textures,
                        .width = width,
                        .height = height,
                        .direction = camera->direction,
@@ -174,10 +177,19 @@ bool camera_aim(const CameraView *view, double x, double y, Ray *ray, double *a,
     return true;
 }
 
+Vec3 camera_bend(const CameraView *view, Vec3 dir, double a, double b) {
+    dir = vec_normalize(dir);
+    if (!view->camera->has_normal)
+        return dir;
+    TextureHit hit = texture_no_hit(false);
+    return vec_normalize(
+        normal_bend(view->textures, view->camera->normal, &hit, vec3(a, b, 0.0), dir));
+}
+
 bool camera_ray(const CameraView *view, double x, double y, Ray *ray) {
     double a, b;
     if (!camera_aim(view, x, y, ray, &a, &b))
         return false;
-    ray->dir = vec_normalize(ray->dir);
+    ray->dir = camera_bend(view, ray->dir, a, b);
     return true;
 }

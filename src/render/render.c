@@ -160,7 +160,9 @@ static void end_resume(Job *job, RenderStats *stats) {
 
 static void render_tiles(Job *job, RenderStats *stats) {
     const RenderOptions *o = job->options;
-    const SampleOptions samples = sample_options(job->scene, o);
+    const Textures textures = textures_make(job->scene);
+    SampleOptions samples = sample_options(job->scene, o);
+    samples.textures = &textures;
 #pragma omp parallel num_threads(stats->threads)
     {
         Tracer *tracer = tracer_create(job->shading);

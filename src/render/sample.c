@@ -41,7 +41,7 @@ Sampler *sampler_create(const SampleOptions *options, const Camera *camera, int 
     Arena *arena = arena_create();
     Sampler *s = ARENA_NEW(arena, Sampler);
     s->options = *options;
-    s->view = camera_view(camera, width, height);
+    s->view = camera_view(camera, options->textures, width, height);
     s->blur = camera->has_blur ? blur_create(camera, arena) : NULL;
     s->width = width;
     s->height = height;

@@ -12,11 +12,12 @@
 enum { SAMPLE_MAX_DEPTH = 9 };
 
 typedef struct {
-    int method;       // 0: the middle of each pixel; 1, 2: POV-Ray's sampling methods
-    int depth;        // 1..9
-    double threshold; // 0..1: colours that differ by it or more are supersampled
-    double jitter;    // 0..1: 0 for none
-    Transfer eye;     // the space in which colours are compared
+    int method;               // 0: the middle of each pixel; 1, 2: POV-Ray's sampling methods
+    int depth;                // 1..9
+    double threshold;         // 0..1: colours that differ by it or more are supersampled
+    double jitter;            // 0..1: 0 for none
+    Transfer eye;             // the space in which colours are compared
+    const Textures *textures; // for a camera with a normal
 } SampleOptions;
 
 // Columns left .. right - 1, rows top .. bottom - 1 of the picture.

@@ -112,8 +112,11 @@ static bool add_transmitted(Tracer *tracer, const Surface *surface, const Finish
         refract_trace(tracer, surface, finish, layers->normal, (float)(path->weight * high), &seen);
     Rgb fade = rgb(1.0f, 1.0f, 1.0f);
     const Interior *interior = body_interior(tracer->shading->scene, surface->body);
-    if (interior != NULL && interior_inside(path->inside, surface->body))
-        fade = refract_fade(interior, surface->hit->t);
+    if (interior != NULL) {
+        fade = rgb_scale(fade, interior->refraction);
+        if (interior_inside(path->inside, surface->body))
+            fade = rgb_mul(fade, refract_fade(interior, surface->hit->t));
+    }
     Rgb light = rgb_mul(fade, color_rgb(seen));
     if (!total) {
         color->transmit = rgb_grey(fade) * seen.transmit;

@@ -191,10 +191,9 @@ static Ray look_through(const Fixture *f, int x, int y) {
 
 static Color trace_with(void *tracer, const Ray *ray) { return tracer_trace(tracer, ray); }
 
-static void trace_picture(const Scene *scene, Tracer *tracer, int width, int height,
-                          Color *pixels) {
-    const Textures textures = textures_make(scene);
-    const SampleOptions options = {.method = 0, .textures = &textures};
+static void trace_picture(const Scene *scene, const Textures *textures, Tracer *tracer, int width,
+                          int height, Color *pixels) {
+    const SampleOptions options = {.method = 0, .textures = textures};
     Sampler *sampler = sampler_create(&options, &scene->camera, width, height, width + height);
     sampler_tile(sampler, (PixelRect){0, 0, width, height}, trace_with, tracer, pixels);
     sampler_destroy(sampler);
@@ -209,7 +208,7 @@ static Color *our_picture(Fixture *f) {
     Tracer *tracer = tracer_create(shading);
     Color *pixels = ARENA_ARRAY(f->arena, Color, (size_t)f->width * (size_t)f->height);
     if (f->converted) {
-        trace_picture(scene, tracer, f->width, f->height, pixels);
+        trace_picture(scene, shading_textures(shading), tracer, f->width, f->height, pixels);
     } else {
         for (int i = 0; i < f->width * f->height; i++) {
             Ray ray = look_through(f, i % f->width, i / f->width);

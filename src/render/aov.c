@@ -70,8 +70,8 @@ static uint32_t *number_patches(const Scene *scene, Arena *arena) {
     return number;
 }
 
-ImageLayers *aov_render(const Scene *scene, const World *world, const RenderOptions *o,
-                        const Color *picture, Arena *arena) {
+ImageLayers *aov_render(const Scene *scene, const World *world, const CameraView *view,
+                        const RenderOptions *o, const Color *picture, Arena *arena) {
     const char **names = ARENA_ARRAY(arena, const char *, MOST_CHANNELS);
     static const char *const colors[] = {"R", "G", "B", "A"};
     int channels = o->alpha ? 4 : 3;
@@ -87,8 +87,6 @@ ImageLayers *aov_render(const Scene *scene, const World *world, const RenderOpti
     layers->pixels = ARENA_ARRAY(arena, float, count *(size_t)channels);
     const uint32_t *patch_of = number_patches(scene, arena);
     PixelRect area = render_area(o);
-    const Textures textures = textures_make(scene);
-    const CameraView view = camera_view(&scene->camera, &textures, o->width, o->height);
 #pragma omp parallel for schedule(dynamic, 1)
     for (int y = area.top; y < area.bottom; y++)
         for (int x = area.left; x < area.right; x++) {
@@ -103,7 +101,7 @@ ImageLayers *aov_render(const Scene *scene, const World *world, const RenderOpti
             Ray ray;
             Look look = {.patch = NO_INDEX};
             look.met =
-                camera_ray(&view, x, y, &ray) &&
+                camera_ray(view, x, y, &ray) &&
                 world_intersect(world, &ray, 0.0, INFINITY, RAY_CAMERA, &look.stats, &look.hit);
             if (look.met)
                 look.patch = patch_of[look.hit.object];

@@ -18,9 +18,9 @@
 #include "render/render.h"
 #include "render/world.h"
 
-// The channels of options->aovs, over the area to render; picture: its colours (width x height).
-// Everything in arena.
-ImageLayers *aov_render(const Scene *scene, const World *world, const RenderOptions *options,
-                        const Color *picture, Arena *arena);
+// The channels of options->aovs, over the area to render, as view sees it; picture: its colours
+// (width x height). Everything in arena.
+ImageLayers *aov_render(const Scene *scene, const World *world, const CameraView *view,
+                        const RenderOptions *options, const Color *picture, Arena *arena);
 
 #endif

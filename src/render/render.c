@@ -160,9 +160,8 @@ static void end_resume(Job *job, RenderStats *stats) {
 
 static void render_tiles(Job *job, RenderStats *stats) {
     const RenderOptions *o = job->options;
-    const Textures textures = textures_make(job->scene);
     SampleOptions samples = sample_options(job->scene, o);
-    samples.textures = &textures;
+    samples.textures = shading_textures(job->shading);
 #pragma omp parallel num_threads(stats->threads)
     {
         Tracer *tracer = tracer_create(job->shading);
@@ -276,8 +275,11 @@ Image *render_scene(const Scene *scene, const RenderOptions *o, Arena *arena,
                                  .compressed = o->compressed,
                                  .gamma = film.header_gamma,
                                  .srgb = film.header_srgb};
-    if (image && o->aovs)
-        stats->layers = aov_render(scene, world, o, job.picture, arena);
+    if (image && o->aovs) {
+        const CameraView view =
+            camera_view(&scene->camera, shading_textures(shading), o->width, o->height);
+        stats->layers = aov_render(scene, world, &view, o, job.picture, arena);
+    }
     arena_destroy(scratch);
     shading_destroy(shading);
     world_destroy(world);

@@ -6,6 +6,7 @@
 
 #include "model/scene.h"
 #include "render/world.h"
+#include "texture/textures.h"
 
 // The parts of the options that the shading needs.
 typedef struct {
@@ -18,6 +19,7 @@ typedef struct {
 typedef struct Shading Shading;
 Shading *shading_create(const Scene *scene, const World *world, const TraceOptions *options);
 void shading_destroy(Shading *shading);
+const Textures *shading_textures(const Shading *shading); // lives as long
 
 typedef struct Tracer Tracer;
 Tracer *tracer_create(const Shading *shading);

@@ -106,6 +106,8 @@ void shading_destroy(Shading *shading) {
     arena_destroy(shading->arena);
 }
 
+const Textures *shading_textures(const Shading *shading) { return &shading->textures; }
+
 Tracer *tracer_create(const Shading *shading) {
     Arena *arena = arena_create();
     Tracer *tracer = ARENA_NEW(arena, Tracer);

@@ -111,6 +111,7 @@ typedef struct {
     PatchMethod method;
     int finer;        // --finer: facets cuts the patches so many times more
     double tolerance; // --tolerance, relative to the patch (PatchSetOptions)
+    double pixels;    // the same in pixels, in place of it; 0: not given
     int pixel[2];     // --pixel: column and row from 0; -1: none
     unsigned aovs;    // --aov: bit 1 << AovKind each
     bool strict;

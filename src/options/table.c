@@ -303,12 +303,31 @@ static bool apply_aov(Parse *parse, const OptionRow *row, bool on, const char *v
 }
 
 static bool apply_tolerance(Parse *parse, const OptionRow *row, bool on, const char *value) {
-    (void)row, (void)on;
+    (void)row;
+    (void)on;
+    RenderOptions *o = parse->options;
+    size_t length = strlen(value);
+    bool pixels = length > 2 && strcmp(value + length - 2, "px") == 0;
+    const char *text = pixels ? arena_printf(parse->arena, "%.*s", (int)length - 2, value) : value;
     double tolerance;
-    if (!option_number(value, &tolerance) || tolerance < 1e-15 || tolerance > 1.0)
-        return complain(parse, "the tolerance is a share of the patch's diameter, 1e-15 to 1");
-    parse->options->tolerance = tolerance;
+    if (!option_number(text, &tolerance) || tolerance < (pixels ? 1e-6 : 1e-15) || tolerance > 1.0)
+        return complain(parse, "a share of the patch's diameter, 1e-15 to 1, or of a pixel where "
+                               "the patch is seen, 1e-6px to 1px");
+    o->pixels = pixels ? tolerance : 0.0;
+    if (!pixels)
+        o->tolerance = tolerance;
     return true;
+}
+
+// Points of the curve of time against error; README has what they were measured to give.
+static bool apply_accuracy(Parse *parse, const OptionRow *row, bool on, const char *value) {
+    static const struct {
+        const char *name, *tolerance;
+    } points[] = {{"draft", "0.1px"}, {"pixel", "1e-6px"}, {"fine", "1e-9"}, {"exact", "1e-14"}};
+    for (size_t i = 0; i < sizeof points / sizeof *points; i++)
+        if (strcasecmp(value, points[i].name) == 0)
+            return apply_tolerance(parse, row, on, points[i].tolerance);
+    return complain(parse, "draft, pixel, fine or exact");
 }
 
 // Takes effect at once: all that trace in this program use it.
@@ -467,7 +486,10 @@ const OptionRow option_rows[] = {
     {OPTION_INT, NULL, NULL, "finer", "n", DRAWS, FIELD(finer), CLIP(0, 8),
      .help = "facets: u_steps and v_steps n higher than the scene says, flatness a 4^n-th of it"},
     {OPTION_SPECIAL, NULL, NULL, "tolerance", "x", DRAWS, .apply = apply_tolerance,
-     .help = "the largest error of a hit, as a share of its patch's diameter (1e-9)"},
+     .help = "the largest error of a hit, as a share of its patch's diameter (1e-9), or of a pixel "
+             "there (0.1px)"},
+    {OPTION_SPECIAL, NULL, NULL, "accuracy", "name", DRAWS, .apply = apply_accuracy,
+     .help = "a named tolerance: draft (0.1px), pixel (1e-6px), fine (1e-9), exact (1e-14)"},
     {OPTION_SPECIAL, NULL, NULL, "aov", "list", IN_QIRENDER, .apply = apply_aov,
      .help = "more channels, to NAME.aov.exr (with +FE to the picture): depth,normal,uv,patch,"
              "steps,bound,object"},

@@ -65,6 +65,9 @@ typedef struct {
     PatchMethod method;
     int finer;        // facets: steps are so many more, flatness is a 4^finer-th
     double tolerance; // |hit - S| <= tolerance x the patch's diameter; default 1e-9
+    // Not NULL: gives the tolerance of a patch in scene units instead; <= 0: the share as above.
+    double (*tolerance_of)(const void *context, Box bounds);
+    const void *context;
 } PatchSetOptions;
 
 PatchSetOptions patchset_options_default(void);

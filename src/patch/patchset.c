@@ -89,6 +89,8 @@ void patchset_add(PatchSet *set, const PatchDef *def) {
         box = box_extend(box, own.points[i]);
     }
     set->bounds = box_union(set->bounds, box);
+    if (!(own.tolerance > 0.0) && set->options.tolerance_of)
+        own.tolerance = set->options.tolerance_of(set->options.context, box);
     if (!(own.tolerance > 0.0))
         own.tolerance = set->options.tolerance * vec_length(vec_sub(box.high, box.low));
     array_push(&set->defs, own);

@@ -7,6 +7,7 @@
 #include "base/progress.h"
 #include "render/aov.h"
 #include "render/film.h"
+#include "render/footprint.h"
 #include "render/resume.h"
 #include "render/story.h"
 #include "render/trace.h"
@@ -127,7 +128,7 @@ static uint64_t identity_of(const Scene *scene, const RenderOptions *o) {
                             o->sampling_method, o->antialias_depth, o->jitter,
                             o->jitter_amount,   o->antialias_gamma, o->quality,
                             o->alpha,           o->method,          o->finer,
-                            o->tolerance};
+                            o->tolerance,       o->pixels};
     uint64_t hash = scene_hash(scene);
     const unsigned char *bytes = (const unsigned char *)facts;
     for (size_t i = 0; i < sizeof facts; i++)
@@ -216,8 +217,16 @@ static Image *develop(const Film *film, const Color *picture, const RenderOption
     return image;
 }
 
-static PatchSetOptions patch_options(const RenderOptions *o) {
+// What footprint holds must stay until the world is made.
+static PatchSetOptions patch_options(const Scene *scene, const RenderOptions *o,
+                                     Footprint *footprint) {
     PatchSetOptions patches = patchset_options_default();
+    if (o->pixels > 0.0) {
+        CameraView view = camera_view(&scene->camera, o->width, o->height);
+        *footprint = footprint_create(&view, o->pixels);
+        patches.tolerance_of = footprint_tolerance;
+        patches.context = footprint;
+    }
     patches.method = o->method;
     patches.tolerance = o->tolerance;
     patches.finer = o->finer;
@@ -232,7 +241,8 @@ Image *render_scene(const Scene *scene, const RenderOptions *o, Arena *arena,
 
     // Prepare the world.
     double start = progress_seconds();
-    PatchSetOptions patches = patch_options(o);
+    Footprint footprint;
+    PatchSetOptions patches = patch_options(scene, o, &footprint);
     World *world = world_create(scene, &patches);
     const TraceOptions trace = {.quality = o->quality, .alpha = o->alpha, .patches = patches};
     Shading *shading = shading_create(scene, world, &trace);
@@ -291,7 +301,8 @@ void render_pixel(const Scene *scene, const RenderOptions *o, FILE *out) {
     if (x >= o->width || y >= o->height)
         die("pixel %d,%d lies outside the picture: it has %d x %d, counted from 0", x, y, o->width,
             o->height);
-    PatchSetOptions patches = patch_options(o);
+    Footprint footprint;
+    PatchSetOptions patches = patch_options(scene, o, &footprint);
     World *world = world_create(scene, &patches);
     const TraceOptions trace = {.quality = o->quality, .alpha = o->alpha, .patches = patches};
     Shading *shading = shading_create(scene, world, &trace);

@@ -160,7 +160,7 @@ static void enter_group(Emitter *e, const ObjectNode *node, Inherited *own) {
         own->light_group = own->own_lights;
 }
 
-static uint32_t emit_projection(Emitter *e, const ObjectNode *body) {
+uint32_t emit_hidden(Emitter *e, const ObjectNode *body) {
     // Whatever keeps other rays from seeing it does not count.
     const Inherited from = {.body = true};
     uint32_t index = emit_object(e, body, &from);
@@ -175,7 +175,7 @@ static void store_light(Emitter *e, const LightNode *node, uint32_t group) {
     emit_gaps(e, node->gaps);
     light.group = group;
     if (node->projected_through) {
-        light.projection = emit_projection(e, node->projected_through);
+        light.projection = emit_hidden(e, node->projected_through);
         light.has_projection = light.projection != NO_INDEX;
     }
     array_push(&e->lights, light);
@@ -398,6 +398,8 @@ static uint32_t emit_object(Emitter *e, const ObjectNode *node, const Inherited 
     return emit_leaf(e, node, &own);
 }
 
+bool object_is_there(const ObjectNode *object) { return is_there(object); }
+
 static void emit_roots(Emitter *e) {
     for (const RootNode *root = e->cv->nodes->first; root; root = root->next) {
         Inherited from = {.texture = root->default_texture};
@@ -495,6 +497,7 @@ static void keep_pools(Emitter *e) {
     KEEP(e, scene, projections, projection_count);
     KEEP(e, scene, pigments, pigment_count);
     KEEP(e, scene, pictures, picture_count);
+    KEEP(e, scene, densities, density_count);
     KEEP(e, scene, normals, normal_count);
     KEEP(e, scene, functions, function_count);
     KEEP(e, scene, textures, texture_count);

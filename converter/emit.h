@@ -42,6 +42,7 @@ typedef struct {
     ARRAY(uint32_t) projections;
     uint32_t group_count; // of light_groups
     ARRAY(Picture) pictures;
+    ARRAY(DensityFile) densities;
     ARRAY(Pigment) pigments;
     ARRAY(Normal) normals;
     ARRAY(Function) functions;
@@ -77,6 +78,11 @@ void node_put(Emitter *e, NodeTable *table, const void *node, uint32_t index);
 
 // Where `at` falls in the map: the entry at or above it and the one below.
 void map_bracket(const MapNode *map, float at, uint32_t *below, uint32_t *above);
+// emit.c: is there anything of the object that the scene can hold? Its place among the objects that
+// are not in the picture; NO_INDEX: there is nothing.
+bool object_is_there(const ObjectNode *object);
+uint32_t emit_hidden(Emitter *e, const ObjectNode *object);
+
 // Can the scene hold it?
 bool pattern_is_modelled(const PatternNode *pattern);
 // The pattern and its warps as the scene has them; only its warps.

@@ -98,6 +98,15 @@ static void copy_shape(const Pattern *shape, Pattern *pattern) {
     case PATTERN_FACETS:
         pattern->facets = shape->facets;
         break;
+    case PATTERN_SLOPE:
+        pattern->slope = shape->slope;
+        break;
+    case PATTERN_FRACTAL:
+        pattern->fractal = shape->fractal;
+        break;
+    case PATTERN_DENSITY:
+        pattern->density_between = shape->density_between;
+        break;
     case PATTERN_QUILTED:
         memcpy(pattern->quilted, shape->quilted, sizeof pattern->quilted);
         break;
@@ -111,6 +120,8 @@ static void copy_shape(const Pattern *shape, Pattern *pattern) {
 }
 
 bool pattern_is_modelled(const PatternNode *node) {
+    if (node->info->type == PATTERN_OBJECT && !object_is_there(node->object))
+        return false;
     return node->info->type != PATTERN_MODELLED && !(node->picture && !node->picture->path);
 }
 
@@ -122,11 +133,45 @@ static uint32_t emit_picture(Emitter *e, const Picture *picture) {
     return (uint32_t)(e->pictures.count - 1);
 }
 
+static uint32_t emit_density(Emitter *e, const char *path) {
+    for (size_t i = 0; i < e->densities.count; i++)
+        if (strcmp(e->densities.items[i].path, path) == 0)
+            return (uint32_t)i;
+    const DensityFile density = {path};
+    array_push(&e->densities, density);
+    return (uint32_t)(e->densities.count - 1);
+}
+
+// What the pattern looks at besides the point.
+static void emit_uses(Emitter *e, const PatternNode *node, Pattern *pattern) {
+    switch (pattern->type) {
+    case PATTERN_IMAGE:
+    case PATTERN_IMAGE_MAP:
+    case PATTERN_BUMP_MAP:
+    case PATTERN_MATERIAL_MAP:
+        pattern->picture = emit_picture(e, node->picture);
+        break;
+    case PATTERN_FUNCTION:
+        pattern->function = emit_function(e, node->function);
+        break;
+    case PATTERN_PIGMENT:
+        pattern->pigment = emit_pigment(e, node->pigment);
+        break;
+    case PATTERN_OBJECT:
+        pattern->object = emit_hidden(e, node->object);
+        break;
+    case PATTERN_DENSITY:
+        pattern->density = emit_density(e, node->density);
+        break;
+    default:
+        break;
+    }
+}
+
 void emit_pattern(Emitter *e, const PatternNode *node, Pattern *pattern) {
     *pattern = pattern_default();
     pattern->type = node->info->type;
-    if (pattern->type >= PATTERN_IMAGE && pattern->type <= PATTERN_MATERIAL_MAP)
-        pattern->picture = emit_picture(e, node->picture);
+    emit_uses(e, node, pattern);
     copy_shape(&node->shape, pattern);
     emit_warps(e, node, pattern);
 }
@@ -136,7 +181,8 @@ uint64_t pattern_hash(uint64_t hash, const Pattern *p) {
     hash = pool_hash(hash, &p->wave, sizeof p->wave);
     const float numbers[] = {p->frequency, p->phase, p->exponent};
     hash = pool_hash(hash, numbers, sizeof numbers);
-    hash = pool_hash(hash, &p->picture, sizeof p->picture);
+    const uint32_t uses[] = {p->picture, p->function, p->pigment, p->object, p->density};
+    hash = pool_hash(hash, uses, sizeof uses);
     hash = pool_hash(hash, &p->turbulence.amount, sizeof p->turbulence.amount);
     for (uint32_t i = 0; i < p->warp_count; i++)
         if (p->warps[i].type == WARP_TRANSFORM)

@@ -93,7 +93,11 @@ typedef struct PatternNode {
     const WarpNode *warps;
     const MapNode *map;     // NULL: the default one. uv_mapping: one item, the rest of the block
     const Picture *picture; // of the patterns that have one
-    Color color;            // one colour
+    const UserFunction *function;      // function
+    const struct PatternNode *pigment; // pigment_pattern
+    const struct ObjectNode *object;   // object
+    const char *density;               // density_file: its path
+    Color color;                       // one colour
     bool has_quick_color;
     Color quick_color;
     float amount, accuracy; // normal: depth, and how far the pattern is looked at around the point

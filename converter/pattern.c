@@ -12,7 +12,7 @@ static const PatternInfo patterns[] = {
     {.keyword = 0, .type = PATTERN_PLAIN}, // no pattern: black
     {.keyword = KW_color, .type = PATTERN_PLAIN},
     {.keyword = KW_agate, .type = PATTERN_AGATE},
-    {.keyword = KW_aoi, .type = OTHER},
+    {.keyword = KW_aoi, .type = PATTERN_AOI},
     {.keyword = KW_average, .type = PATTERN_AVERAGE},
     {.keyword = KW_boxed, .type = PATTERN_BOXED},
     {.keyword = KW_bozo, .type = PATTERN_BOZO},
@@ -24,30 +24,30 @@ static const PatternInfo patterns[] = {
     {.keyword = KW_crackle, .type = PATTERN_CRACKLE},
     {.keyword = KW_cubic, .type = PATTERN_CUBIC, .list = 6, .still = true},
     {.keyword = KW_cylindrical, .type = PATTERN_CYLINDRICAL},
-    {.keyword = KW_density_file, .type = OTHER},
+    {.keyword = KW_density_file, .type = PATTERN_DENSITY},
     {.keyword = KW_dents, .type = PATTERN_DENTS},
     {.keyword = KW_facets, .type = PATTERN_FACETS},
-    {.keyword = KW_function, .type = OTHER},
+    {.keyword = KW_function, .type = PATTERN_FUNCTION},
     {.keyword = KW_gradient, .type = PATTERN_GRADIENT},
     {.keyword = KW_granite, .type = PATTERN_GRANITE},
     {.keyword = KW_hexagon, .type = PATTERN_HEXAGON, .list = 3, .still = true},
     {.keyword = KW_image_map, .type = PATTERN_IMAGE_MAP, .still = true},
     {.keyword = KW_image_pattern, .type = PATTERN_IMAGE, .still = true},
-    {.keyword = KW_julia, .type = OTHER},
+    {.keyword = KW_julia, .type = PATTERN_FRACTAL},
     {.keyword = KW_leopard, .type = PATTERN_LEOPARD},
-    {.keyword = KW_magnet, .type = OTHER},
-    {.keyword = KW_mandel, .type = OTHER},
+    {.keyword = KW_magnet, .type = PATTERN_FRACTAL},
+    {.keyword = KW_mandel, .type = PATTERN_FRACTAL},
     {.keyword = KW_marble, .type = PATTERN_MARBLE, .triangle = true},
     {.keyword = KW_material_map, .type = PATTERN_MATERIAL_MAP, .still = true},
-    {.keyword = KW_object, .type = OTHER, .list = 2, .still = true},
+    {.keyword = KW_object, .type = PATTERN_OBJECT, .list = 2, .still = true},
     {.keyword = KW_onion, .type = PATTERN_ONION},
     {.keyword = KW_pavement, .type = OTHER},
-    {.keyword = KW_pigment_pattern, .type = OTHER},
+    {.keyword = KW_pigment_pattern, .type = PATTERN_PIGMENT},
     {.keyword = KW_planar, .type = PATTERN_PLANAR},
     {.keyword = KW_quilted, .type = PATTERN_QUILTED, .still = true},
     {.keyword = KW_radial, .type = PATTERN_RADIAL},
     {.keyword = KW_ripples, .type = PATTERN_RIPPLES},
-    {.keyword = KW_slope, .type = OTHER},
+    {.keyword = KW_slope, .type = PATTERN_SLOPE},
     {.keyword = KW_spherical, .type = PATTERN_SPHERICAL},
     {.keyword = KW_spiral1, .type = PATTERN_SPIRAL1, .triangle = true},
     {.keyword = KW_spiral2, .type = PATTERN_SPIRAL2, .triangle = true},
@@ -236,31 +236,61 @@ static bool parse_shape_modifier(Converter *cv, PatternNode *pattern, int code) 
     }
 }
 
-// Numbers of patterns that are not modelled: { keyword, how many at least, how many at most }.
-static bool parse_number_modifier(Converter *cv, int code) {
-    int most = 1;
+// What a fractal shows of a point: TYPE, FACTOR. pavement: TYPE.
+static void parse_ground(Converter *cv, PatternNode *pattern, bool exterior) {
+    FractalShape *fractal = &pattern->shape.fractal;
+    Loc loc = here(cv);
+    double type = parse_float(cv);
+    int most = exterior ? 8 : 6;
+    if (pattern->info->keyword == KW_pavement)
+        return;
+    if (!(type > -1 && type < most + 1))
+        die_at(&loc, "%g is not one of the types 0 to %d", type, most);
+    optional_comma(cv);
+    *(exterior ? &fractal->exterior : &fractal->interior) = (int)type;
+    *(exterior ? &fractal->exterior_factor : &fractal->interior_factor) = parse_float(cv);
+}
+
+static void parse_exponent(Converter *cv, PatternNode *pattern) {
+    Loc loc = here(cv);
+    double exponent = parse_float(cv);
+    bool good = exponent >= 2 && exponent < FRACTAL_MAX_EXPONENT + 1;
+    if (!good)
+        warn_at(&loc, "%g is no exponent of a fractal (2 to %d): 2 is taken", exponent,
+                FRACTAL_MAX_EXPONENT);
+    pattern->shape.fractal.exponent = good ? (int)exponent : 2;
+}
+
+static void parse_density_interpolation(Converter *cv, PatternNode *pattern) {
+    double between = parse_float(cv);
+    pattern->shape.density_between = between > -1 && between < 1 ? 0 : between < 2 ? 1 : 2;
+}
+
+// Members of single patterns, each after its keyword.
+static bool parse_number_modifier(Converter *cv, PatternNode *pattern, int code) {
     switch (code) {
     case KW_exponent:
+        next_token(cv);
+        parse_exponent(cv, pattern);
+        return true;
     case KW_interpolate:
-    case KW_number_of_sides:
+        next_token(cv);
+        parse_density_interpolation(cv, pattern);
+        return true;
+    case KW_number_of_sides: // of pavement
     case KW_number_of_tiles:
     case KW_pattern:
-        break;
-    case KW_interior: // type and factor; pavement: type
+        next_token(cv);
+        parse_float(cv);
+        return true;
+    case KW_interior:
     case KW_exterior:
-        most = 2;
-        break;
+        next_token(cv);
+        parse_ground(cv, pattern, code == KW_exterior);
+        return true;
     default:
         return false;
     }
-    next_token(cv);
-    parse_float(cv);
-    if (most > 1) {
-        optional_comma(cv);
-        if (starts_expression(cv))
-            parse_float(cv);
-    }
-    return true;
 }
 
 // Written twice, the numbers are joined bit by bit, as POV-Ray keeps them.
@@ -330,7 +360,7 @@ static bool parse_modifier(Converter *cv, PatternUse use, PatternNode *pattern) 
     }
     if (parse_wave(cv, pattern, code) || parse_map_modifier(cv, use, pattern) ||
         parse_turbulence(cv, pattern) || parse_shape_modifier(cv, pattern, code) ||
-        parse_number_modifier(cv, code))
+        parse_number_modifier(cv, pattern, code))
         return true;
     if (parse_move(cv, &move)) {
         pattern_move(cv, pattern, &move.t);
@@ -346,6 +376,10 @@ static void begin_pattern(PatternNode *pattern, const PatternInfo *info) {
     bool brick = info->type == PATTERN_BRICK && pattern->info->type == PATTERN_BRICK;
     pattern->info = info;
     pattern->picture = NULL;
+    pattern->function = NULL;
+    pattern->pigment = NULL;
+    pattern->object = NULL;
+    pattern->density = NULL;
     if (info->triangle)
         shape->wave = WAVE_TRIANGLE;
     if (info->still)
@@ -358,6 +392,9 @@ static void begin_pattern(PatternNode *pattern, const PatternInfo *info) {
     memcpy(shape->quilted, standard.quilted, sizeof shape->quilted);
     shape->crackle = standard.crackle;
     shape->facets = standard.facets;
+    shape->slope = standard.slope;
+    shape->fractal = standard.fractal;
+    shape->density_between = 0;
     if (info->list)
         pattern->accuracy = normal_default().accuracy;
     shape->arms = standard.arms;

@@ -5,10 +5,9 @@
 
 #include <math.h>
 
-static void optional_float(Converter *cv) {
+static double optional_float(Converter *cv) {
     optional_comma(cv);
-    if (starts_expression(cv))
-        parse_float(cv);
+    return starts_expression(cv) ? parse_float(cv) : 0;
 }
 
 static void parse_gradient(Converter *cv, PatternNode *pattern) {
@@ -29,43 +28,85 @@ static void parse_arms(Converter *cv, PatternNode *pattern) {
     pattern->shape.arms = (int)arms;
 }
 
+// [, F, F]: a range; an empty one counts as none.
+static void parse_range(Converter *cv, double *low, double *high) {
+    Loc loc = here(cv);
+    *low = optional_float(cv);
+    *high = optional_float(cv);
+    if (*low == *high && *high != 0)
+        warn_at(&loc, "the range is empty and does not count");
+}
+
 // slope V | slope { [point_at] V [, F, F] [altitude V [, F, F]] }
-static void parse_slope(Converter *cv) {
+static void parse_slope_items(Converter *cv, SlopeShape *slope) {
     if (!accept(cv, '{')) {
-        parse_vector(cv);
+        slope->slope = parse_vector(cv);
         return;
     }
-    accept(cv, KW_point_at);
-    parse_vector(cv);
-    optional_float(cv);
-    optional_float(cv);
+    slope->point_at = accept(cv, KW_point_at);
+    slope->slope = parse_vector(cv);
+    parse_range(cv, &slope->low, &slope->high);
+    Loc loc = here(cv);
     if (accept(cv, KW_altitude)) {
-        parse_vector(cv);
-        optional_float(cv);
-        optional_float(cv);
+        if (slope->point_at)
+            die_at(&loc, "'altitude' cannot be used with 'point_at'");
+        slope->altitude = parse_vector(cv);
+        parse_range(cv, &slope->altitude_low, &slope->altitude_high);
     }
     expect(cv, '}', "slope");
 }
 
+static void parse_slope(Converter *cv, PatternNode *pattern) {
+    SlopeShape *slope = &pattern->shape.slope;
+    Loc loc = here(cv);
+    parse_slope_items(cv, slope);
+    if (slope->point_at)
+        return; // its vector is a place
+    double steep = vec_length(slope->slope), high = vec_length(slope->altitude);
+    if (!(steep + high > 0) || !isfinite(steep + high))
+        die_at(&loc, "neither the slope nor the altitude has a length");
+    if (steep != 0)
+        slope->slope = vec_normalize(slope->slope);
+    if (high != 0)
+        slope->altitude = vec_normalize(slope->altitude);
+    slope->share = steep / (float)(steep + high);
+}
+
+static int parse_iterations(Converter *cv) {
+    Loc loc = here(cv);
+    double count = parse_float(cv);
+    if (!(count < FRACTAL_MAX_ITERATIONS + 1))
+        die_at(&loc, "more than %d iterations", FRACTAL_MAX_ITERATIONS);
+    return count > 0 ? (int)count : 0;
+}
+
 // julia UV, F | mandel F; magnet F comes before either of them.
-static void parse_fractal(Converter *cv, int keyword) {
+static void parse_fractal(Converter *cv, PatternNode *pattern) {
+    FractalShape *fractal = &pattern->shape.fractal;
+    int keyword = pattern->info->keyword;
     if (keyword == KW_magnet) {
-        parse_float(cv);
+        Loc loc = here(cv);
+        double magnet = parse_float(cv);
+        if (!(magnet >= 1 && magnet < 3))
+            die_at(&loc, "%g is no magnet: 1 and 2 are", magnet);
+        fractal->magnet = (int)magnet;
         if (!next_is(cv, KW_julia) && !next_is(cv, KW_mandel))
             die_expected(cv, "'mandel' or 'julia' after magnet");
         keyword = next_token(cv)->code;
     }
-    if (keyword == KW_julia) {
-        parse_uv(cv);
+    fractal->julia = keyword == KW_julia;
+    if (fractal->julia) {
+        fractal->c = parse_uv(cv);
         optional_comma(cv);
     }
-    parse_float(cv);
+    fractal->iterations = parse_iterations(cv);
 }
 
 // object { OBJECT items }
 static void parse_object_pattern(Converter *cv, PatternUse use, PatternNode *pattern) {
     expect(cv, '{', "object pattern");
-    if (!parse_object(cv))
+    pattern->object = parse_object(cv);
+    if (!pattern->object)
         die_expected(cv, "an object");
     pattern->map = parse_pattern_list(cv, use, pattern->info);
     expect(cv, '}', "object pattern");
@@ -111,10 +152,18 @@ static void parse_tiles(Converter *cv, PatternNode *pattern) {
     pattern->map = map_create(cv, MAP_TEXTURE, items, 2);
 }
 
+static void parse_function_pattern(Converter *cv, PatternNode *pattern) {
+    Loc loc = here(cv);
+    pattern->function = parse_function(cv);
+    if (user_function_parameters(cv, pattern->function) != 3 ||
+        user_function_width(cv, pattern->function) != 1)
+        die_at(&loc, "the function of a pattern takes three numbers and gives one");
+}
+
 static void parse_body_pattern(Converter *cv, PatternUse use, PatternNode *pattern) {
     switch (pattern->info->keyword) {
     case KW_function:
-        parse_function(cv);
+        parse_function_pattern(cv, pattern);
         break;
     case KW_image_map:
     case KW_bump_map:
@@ -128,7 +177,7 @@ static void parse_body_pattern(Converter *cv, PatternUse use, PatternNode *patte
         parse_object_pattern(cv, use, pattern);
         break;
     case KW_pigment_pattern:
-        parse_pigment_block(cv, cv->nodes->default_texture->pigment);
+        pattern->pigment = parse_pigment_block(cv, cv->nodes->default_texture->pigment);
         break;
     case KW_tiles:
         parse_tiles(cv, pattern);
@@ -142,7 +191,7 @@ static void parse_number_pattern(Converter *cv, PatternNode *pattern) {
     switch (pattern->info->keyword) {
     case KW_density_file:
         expect(cv, KW_df3, "density_file");
-        parse_required_file(cv, FILE_DENSITY);
+        pattern->density = parse_required_file(cv, FILE_DENSITY);
         break;
     case KW_gradient:
         parse_gradient(cv, pattern);
@@ -150,10 +199,10 @@ static void parse_number_pattern(Converter *cv, PatternNode *pattern) {
     case KW_julia:
     case KW_magnet:
     case KW_mandel:
-        parse_fractal(cv, pattern->info->keyword);
+        parse_fractal(cv, pattern);
         break;
     case KW_slope:
-        parse_slope(cv);
+        parse_slope(cv, pattern);
         break;
     case KW_spiral1:
     case KW_spiral2:

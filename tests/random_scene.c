@@ -152,6 +152,28 @@ static Transform random_transform(Rng *rng) {
     X(double, pattern.crackle.metric)                                                              \
     X(double, pattern.crackle.offset)                                                              \
     X(bool, pattern.crackle.solid)                                                                 \
+    X(Vec3, pattern.slope.slope)                                                                   \
+    X(bool, pattern.slope.point_at)                                                                \
+    X(double, pattern.slope.low)                                                                   \
+    X(double, pattern.slope.high)                                                                  \
+    X(Vec3, pattern.slope.altitude)                                                                \
+    X(double, pattern.slope.altitude_low)                                                          \
+    X(double, pattern.slope.altitude_high)                                                         \
+    X(double, pattern.slope.share)                                                                 \
+    X(int, pattern.fractal.exponent)                                                               \
+    X(int, pattern.fractal.magnet)                                                                 \
+    X(bool, pattern.fractal.julia)                                                                 \
+    X(int, pattern.fractal.iterations)                                                             \
+    X(Vec2, pattern.fractal.c)                                                                     \
+    X(int, pattern.fractal.exterior)                                                               \
+    X(int, pattern.fractal.interior)                                                               \
+    X(double, pattern.fractal.exterior_factor)                                                     \
+    X(double, pattern.fractal.interior_factor)                                                     \
+    X(uint32_t, pattern.function)                                                                  \
+    X(uint32_t, pattern.pigment)                                                                   \
+    X(uint32_t, pattern.object)                                                                    \
+    X(uint32_t, pattern.density)                                                                   \
+    X(int, pattern.density_between)                                                                \
     X(uint32_t, pattern.picture)                                                                   \
     X(FacetsShape, pattern.facets)                                                                 \
     X(bool, pattern.has_turbulence)                                                                \
@@ -361,6 +383,19 @@ static void make_pattern_shape(Rng *rng, Pattern *p) {
     p->crackle.metric = random_double(rng);
     p->crackle.offset = random_double(rng);
     p->crackle.solid = random_bool(rng);
+    p->slope =
+        (SlopeShape){random_unit(rng), random_bool(rng),   random_double(rng), random_double(rng),
+                     random_vec3(rng), random_double(rng), random_double(rng), random_double(rng)};
+    p->fractal = (FractalShape){2 + (int)random_below(rng, 32),
+                                (int)random_below(rng, 3),
+                                (int)random_below(rng, 9999),
+                                random_bool(rng),
+                                {random_double(rng), random_double(rng)},
+                                (int)random_below(rng, 9),
+                                (int)random_below(rng, 7),
+                                random_double(rng),
+                                random_double(rng)};
+    p->density_between = (int)random_below(rng, 3);
     p->facets = (FacetsShape){random_double(rng), random_double(rng), random_double(rng)};
 }
 
@@ -394,11 +429,19 @@ static Picture make_picture(Rng *rng, Arena *arena) {
     return p;
 }
 
+// Patterns that stand in every kind of record and ask for nothing but a file.
+static bool is_common(PatternType type) {
+    return type < PATTERN_BUMPS || type == PATTERN_IMAGE || type == PATTERN_SLOPE ||
+           type == PATTERN_AOI || type == PATTERN_FRACTAL || type == PATTERN_DENSITY;
+}
+
 static Pattern make_pattern(Rng *rng, Arena *arena) {
     Pattern p = pattern_default();
     do
         p.type = (PatternType)random_below(rng, PATTERN_MODELLED);
-    while (p.type >= PATTERN_BUMPS && p.type != PATTERN_IMAGE); // of one kind of record only
+    while (!is_common(p.type));
+    if (p.type == PATTERN_DENSITY || random_bool(rng))
+        p.density = random_below(rng, PICTURES);
     if (p.type == PATTERN_IMAGE || random_bool(rng))
         p.picture = random_below(rng, PICTURES);
     p.wave = (WaveType)random_below(rng, 6);
@@ -424,6 +467,10 @@ static Pigment make_pigment(Rng *rng, Arena *arena, uint32_t index) {
     p.color = random_color(rng);
     if (p.pattern.picture != NO_INDEX && random_bool(rng))
         p.pattern.type = PATTERN_IMAGE_MAP;
+    if (index > 0 && random_bool(rng))
+        p.pattern.pigment = random_below(rng, index);
+    if (p.pattern.pigment != NO_INDEX && p.pattern.type == PATTERN_AOI)
+        p.pattern.type = PATTERN_PIGMENT;
     if (p.pattern.type != PATTERN_PLAIN && p.pattern.type != PATTERN_IMAGE_MAP)
         p.entry_count = 6 + random_below(rng, 3); // enough for any list pattern
     p.entries = ARENA_ARRAY(arena, MapEntry, p.entry_count);
@@ -703,6 +750,10 @@ Scene *random_scene(Rng *rng, Arena *arena) {
         scene->lights[i] = make_light(rng);
     for (uint32_t i = 0; i < scene->pigment_count; i++)
         scene->pigments[i] = make_pigment(rng, arena, i);
+    scene->density_count = PICTURES;
+    scene->densities = ARENA_ARRAY(arena, DensityFile, PICTURES);
+    for (uint32_t i = 0; i < PICTURES; i++)
+        scene->densities[i].path = arena_printf(arena, "/densities/%u.df3", i);
     scene->picture_count = PICTURES;
     scene->pictures = ARENA_ARRAY(arena, Picture, PICTURES);
     for (uint32_t i = 0; i < PICTURES; i++)
@@ -723,6 +774,13 @@ Scene *random_scene(Rng *rng, Arena *arena) {
     scene->objects = ARENA_ARRAY(arena, Object, MAX_OBJECTS);
     scene->root_count = make_objects(rng, arena, scene, 0, &scene->roots);
     scene->projection_count = make_objects(rng, arena, scene, 2, &scene->projections);
+    for (uint32_t i = 0; i < scene->pigment_count && scene->projection_count > 0; i++) {
+        Pattern *pattern = &scene->pigments[i].pattern;
+        if (pattern->type == PATTERN_CHECKER)
+            pattern->type = PATTERN_OBJECT;
+        if (pattern->type == PATTERN_OBJECT)
+            pattern->object = random_below(rng, scene->projection_count);
+    }
     for (uint32_t i = 0; i < scene->light_count && scene->projection_count > 0; i++) {
         scene->lights[i].has_projection = random_bool(rng);
         if (scene->lights[i].has_projection)
@@ -972,6 +1030,10 @@ const char *scene_difference(const Scene *a, const Scene *b) {
     COMPARE(uint32_t, rainbow_count)
     COMPARE(uint32_t, light_count)
     COMPARE(uint32_t, pigment_count)
+    COMPARE(uint32_t, density_count)
+    for (uint32_t i = 0; i < a->density_count; i++)
+        if (strcmp(a->densities[i].path, b->densities[i].path) != 0)
+            return "densities";
     COMPARE(uint32_t, picture_count)
     COMPARE(uint32_t, normal_count)
     COMPARE(uint32_t, texture_count)

@@ -234,12 +234,13 @@ static void materials(void **state) {
 
 static void middle_colors(void **state) {
     (void)state;
-    Pigment p = pigment("", "pigment { julia <0,1>, 5 color_map { [0 rgb 0][1 rgb <1,0.5,0>] } }");
+    Pigment p = pigment("", "pigment { tiling 1 color_map { [0 rgb 0][1 rgb <1,0.5,0>] } }");
     assert_int_equal(p.pattern.type, PATTERN_PLAIN);
     assert_color(p.color, 0.5, 0.25, 0, 0, 0);
-    p = pigment("", "pigment { slope y color_map { [0.25 rgb 0][0.75 rgbt 1] } }");
+    p = pigment("", "pigment { tiling 2 color_map { [0.25 rgb 0][0.75 rgbt 1] } }");
     assert_color(p.color, 0.5, 0.5, 0.5, 0, 0.5);
-    p = pigment("", "pigment { aoi pigment_map { [0 rgb x][0.5 checker rgb y rgb z][1 rgb 0] }}");
+    p = pigment("",
+                "pigment { tiling 4 pigment_map { [0 rgb x][0.5 checker rgb y rgb z][1 rgb 0] }}");
     assert_color(p.color, 0, 0.5, 0.5, 0, 0);
     p = pigment("", "texture { tiling 3 texture_map { [0 pigment { rgb x }][1 pigment { rgb y }] "
                     "} }");

@@ -83,6 +83,55 @@ static const TextureRow WARPS[] = {
          "[1 rgb y] } scale 0.5 } #declare G = pigment { M gradient y } pigment { G }"},
 };
 
+static const TextureRow OTHER_PATTERNS[] = {
+    P("slope y" MAP),
+    P("slope { <1,2,-1>, 0.3, 0.8 }" MAP),
+    P("slope { -z, 0.2, 0.9 altitude <0,1,0.3>, -2, 3 }" MAP),
+    P("slope { point_at <1,2,-4> }" MAP "triangle_wave frequency 2"),
+    P("aoi" MAP "frequency 2"),
+    {"", "pigment { slope z" MAP "} normal { bumps 0.5 scale 0.3 }"},
+    {"", "texture { pigment { aoi" MAP "} normal { bumps 0.5 scale 0.3 no_bump_scale } } texture { "
+         "pigment { slope x color_map { [0.4 rgbt 1] [0.5 rgb z] } } }"},
+    {"", "pigment { rgb 0.8 } normal { slope x, 0.5 }"},
+    P("function { sin(x * 4) * y + z * 0.3 }" MAP),
+    {"functions.inc", "pigment { function { f_noise3d(x * 3, y, z) + f_ridged_mf(x, y, z, 0.3, 2, "
+                      "4, 0.6, 1.2, 2) * 0.3 }" MAP "scale 0.7 turbulence 0.2 }"},
+    {"",
+     "#declare F = function { pattern { granite scale 0.8 triangle_wave } } #declare G = function "
+     "{ pigment { bozo color_map { [0 rgb x] [1 rgb <0,1,1>] } scale 0.5 } } pigment { function { "
+     "F(x, y, z) * 0.7 + G(x, y, z).red * 0.3 }" MAP "}"},
+    {"", "pigment { rgb 0.8 } normal { function { sin(x * 9) * cos(y * 7) }, 0.4 }"},
+    P("pigment_pattern { bozo color_map { [0 rgb x] [0.6 rgb 1] [1 rgb 0.2] } scale 0.3 turbulence "
+      "0.4 "
+      "}" MAP "scale 1.3 rotate 20"),
+    P("pigment_pattern { checker rgb 0.2 rgb 0.7 } color_map { [0 rgb x] [1 rgb z] } scale 0.5"),
+    {"", "pigment { rgb 0.8 } normal { pigment_pattern { marble turbulence 0.5 scale 0.5 }, 0.5 }"},
+    P("object { sphere { 0, 1.3 scale <1.3,1,1> } rgb x, rgb z } rotate 10"),
+    P("object { difference { box { -1.6, 1.6 } cylinder { -3*z, 3*z, 0.9 } } pigment { bozo scale "
+      "0.2 } "
+      "pigment { granite } } turbulence 0.3"),
+    {"", "pigment { rgb 0.8 } normal { object { sphere { 0, 1.5 } normal { bumps 0.5 scale 0.2 } "
+         "normal "
+         "{ quilted 0.6 scale 0.3 } } }"},
+    {"",
+     "texture { object { torus { 1.4, 0.6 rotate 90*x } texture { pigment { rgb 1 } } texture { "
+     "pigment { granite } finish { reflection 0.2 } } } }"},
+    P("density_file df3 \"spiral.df3\"" MAP "translate -0.5 scale <7,6,5>"),
+    P("density_file df3 \"spiral.df3\" interpolate 1" MAP "translate -0.5 scale <7,6,5>"),
+    P("density_file df3 \"spiral.df3\" interpolate 2" MAP "translate -0.5 scale <7,6,5>"),
+    P("mandel 50 scale 1.5"),
+    P("mandel 30" MAP "exponent 3 interior 1, 1 exterior 6, 0.3"),
+    P("mandel 25" MAP "exponent 4 exterior 7, 5"),
+    P("mandel 20" MAP "exponent 7 exterior 8, 4 interior 6, 0.5"),
+    P("julia <0.353, 0.288>, 30 interior 1, 1" MAP "scale 1.3"),
+    P("julia <-0.4, 0.6>, 40" MAP "exponent 3 exterior 2, 0.2"),
+    P("julia <0.2, 0.5>, 20" MAP "exponent 5 exterior 4, 0.1 interior 3, 0.7"),
+    P("magnet 1 mandel 30" MAP "interior 1, 0.5 scale 0.8"),
+    P("magnet 2 mandel 30" MAP "exterior 3, 0.01"),
+    P("magnet 1 julia <0.3, 0.4>, 30" MAP "scale 0.7"),
+    P("magnet 2 julia <1.2, 0.4>, 30" MAP "exterior 5, 0.001 interior 2, 1"),
+};
+
 #define N(text)                                                                                    \
     { "", "pigment { rgb <0.9,0.8,0.6> } finish { phong 0.5 specular 0.3 } normal { " text " }" }
 
@@ -250,6 +299,11 @@ static void standard_textures(void **state) {
     texture_rows_check(INCLUDES, sizeof INCLUDES / sizeof *INCLUDES);
 }
 
+static void other_patterns(void **state) {
+    (void)state;
+    texture_rows_check(OTHER_PATTERNS, sizeof OTHER_PATTERNS / sizeof *OTHER_PATTERNS);
+}
+
 static void normals(void **state) {
     (void)state;
     texture_rows_check(NORMALS, sizeof NORMALS / sizeof *NORMALS);
@@ -267,9 +321,10 @@ static void interiors(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(patterns),          cmocka_unit_test(warps_and_maps),
-        cmocka_unit_test(standard_textures), cmocka_unit_test(interiors),
-        cmocka_unit_test(normals),           cmocka_unit_test(patterned_textures),
+        cmocka_unit_test(patterns),           cmocka_unit_test(warps_and_maps),
+        cmocka_unit_test(standard_textures),  cmocka_unit_test(interiors),
+        cmocka_unit_test(other_patterns),     cmocka_unit_test(normals),
+        cmocka_unit_test(patterned_textures),
     };
     return cmocka_run_group_tests_name("texture_scenes", tests, NULL, NULL);
 }

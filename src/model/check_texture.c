@@ -73,6 +73,7 @@ static uint32_t least_entries(PatternType type) {
     switch (type) {
     case PATTERN_CHECKER:
     case PATTERN_BRICK:
+    case PATTERN_OBJECT:
         return 2;
     case PATTERN_HEXAGON:
         return 3;
@@ -99,14 +100,65 @@ static void check_pattern_shape(const Check *c, const FieldPath *path, const Pat
     check_numbers(c, &facets, "size", &pattern->facets.size, 1);
     check_numbers(c, &facets, "coords", &pattern->facets.coords, 1);
     check_numbers(c, &facets, "metric", &pattern->facets.metric, 1);
-    const FieldPath picture = path_field(path, "picture");
-    bool needs = pattern->type >= PATTERN_IMAGE && pattern->type <= PATTERN_MATERIAL_MAP;
-    if (needs || pattern->picture != NO_INDEX)
-        check_index(c, &picture, pattern->picture, c->scene->picture_count, "picture");
     for (int i = 0; i < 3; i++) {
         const FieldPath size = path_field(path, "brick_size");
         if (pattern->type == PATTERN_BRICK && vec_get(pattern->brick_size, i) == 0)
             refuse(c, &size, "0 has no reciprocal");
+    }
+}
+
+static void check_slope(const Check *c, const FieldPath *up, const SlopeShape *slope) {
+    const FieldPath path = path_field(up, "slope");
+    check_vec3(c, &path, "slope", slope->slope);
+    check_numbers(c, &path, "low", &slope->low, 1);
+    check_numbers(c, &path, "high", &slope->high, 1);
+    check_vec3(c, &path, "altitude", slope->altitude);
+    check_numbers(c, &path, "altitude_low", &slope->altitude_low, 1);
+    check_numbers(c, &path, "altitude_high", &slope->altitude_high, 1);
+    check_numbers(c, &path, "share", &slope->share, 1);
+}
+
+static void check_fractal(const Check *c, const FieldPath *up, const FractalShape *fractal) {
+    const FieldPath path = path_field(up, "fractal");
+    check_range(c, &path, "exponent", fractal->exponent, 2, FRACTAL_MAX_EXPONENT);
+    check_range(c, &path, "magnet", fractal->magnet, 0, 2);
+    check_range(c, &path, "iterations", fractal->iterations, 0, FRACTAL_MAX_ITERATIONS);
+    check_numbers(c, &path, "c", &fractal->c.u, 2);
+    check_range(c, &path, "exterior", fractal->exterior, 0, 8);
+    check_range(c, &path, "interior", fractal->interior, 0, 6);
+    check_numbers(c, &path, "exterior_factor", &fractal->exterior_factor, 1);
+    check_numbers(c, &path, "interior_factor", &fractal->interior_factor, 1);
+}
+
+// The index of what the pattern looks at: there when it needs it, and good when it is there.
+static void check_use(const Check *c, const FieldPath *up, bool needed, uint32_t index,
+                      uint32_t count, const char *name) {
+    const FieldPath path = path_field(up, name);
+    if (needed || index != NO_INDEX)
+        check_index(c, &path, index, count, name);
+}
+
+static void check_pattern_uses(const Check *c, const FieldPath *path, const Pattern *pattern) {
+    PatternType type = pattern->type;
+    bool picture = type == PATTERN_IMAGE || type == PATTERN_IMAGE_MAP || type == PATTERN_BUMP_MAP ||
+                   type == PATTERN_MATERIAL_MAP;
+    check_use(c, path, picture, pattern->picture, c->scene->picture_count, "picture");
+    check_use(c, path, type == PATTERN_OBJECT, pattern->object, c->scene->projection_count,
+              "object");
+    check_use(c, path, type == PATTERN_DENSITY, pattern->density, c->scene->density_count,
+              "density");
+    check_use(c, path, type == PATTERN_PIGMENT, pattern->pigment, c->scene->pigment_count,
+              "pigment");
+    check_use(c, path, type == PATTERN_FUNCTION, pattern->function, c->scene->function_count,
+              "function");
+    check_range(c, path, "density_interpolate", pattern->density_between, 0, 2);
+    check_slope(c, path, &pattern->slope);
+    check_fractal(c, path, &pattern->fractal);
+    const FieldPath function = path_field(path, "function");
+    if (type == PATTERN_FUNCTION) {
+        const Function *f = &c->scene->functions[pattern->function];
+        if (f->parameters != 3 || function_width(f) != 1)
+            refuse(c, &function, "it is not one of three numbers to one");
     }
 }
 
@@ -118,6 +170,7 @@ static void check_pattern(const Check *c, const FieldPath *path, const Pattern *
     check_float(c, path, "exponent", pattern->exponent);
     check_range(c, path, "noise_generator", pattern->noise_generator, 0, 3);
     check_pattern_shape(c, path, pattern);
+    check_pattern_uses(c, path, pattern);
     if (pattern->type == PATTERN_GRADIENT)
         check_unit(c, path, "gradient", pattern->gradient);
     else
@@ -161,6 +214,7 @@ static bool enter_record(const Check *c, const FieldPath *path, const CheckPool 
 typedef struct {
     bool all;
     double sum, first, second; // of all entries; the two largest
+    double own;                // of what the pattern itself looks at
 } Cost;
 
 static void cost_add(Cost *cost, double entry) {
@@ -174,7 +228,7 @@ static void cost_add(Cost *cost, double entry) {
 static void leave_record(const Check *c, const FieldPath *path, const CheckPool *pool,
                          uint32_t index, const Cost *cost) {
     static const double MOST = 1e5;
-    double total = 1 + (cost->all ? cost->sum : cost->first + cost->second);
+    double total = 1 + cost->own + (cost->all ? cost->sum : cost->first + cost->second);
     if (total > MOST)
         refuse(c, path, "%g evaluations at each point are more than %g", total, MOST);
     pool->cost[index] = total;
@@ -189,6 +243,20 @@ static void check_entry_count(const Check *c, const FieldPath *path, PatternType
         refuse(c, &map, "it is empty");
     if (count < least)
         refuse(c, &map, "%u entries, but the pattern has %u values", count, least);
+}
+
+// The pigment or function that the pattern of a record of that pool looks at.
+static void check_inner(const Check *c, const FieldPath *path, const CheckPool *pool,
+                        uint32_t index, const Pattern *pattern, int depth, Cost *cost) {
+    const FieldPath pigment = path_field(path, "pigment"), function = path_field(path, "function");
+    if (pattern->type == PATTERN_PIGMENT) {
+        check_pigment(c, &pigment, pattern->pigment, depth + 1);
+        cost->own = c->pigments.cost[pattern->pigment];
+        check_nest(pool, index, c->pigments.nesting[pattern->pigment]);
+    } else if (pattern->type == PATTERN_FUNCTION) {
+        check_nest(pool, index, check_function_use(c, &function, pattern->function, depth + 1));
+        cost->own = c->functions.cost[pattern->function];
+    }
 }
 
 // Patterns that stand in one kind of record only: the kind, or NULL.
@@ -248,6 +316,7 @@ void check_pigment(const Check *c, const FieldPath *path, uint32_t index, int de
     Cost cost = {.all = kind == PATTERN_AVERAGE};
     float weights = 0;
     check_pattern(c, path, &pigment->pattern);
+    check_inner(c, path, &c->pigments, index, &pigment->pattern, depth, &cost);
     check_color(c, path, "color", pigment->color);
     check_color(c, path, "quick_color", pigment->quick_color);
     check_place(c, path, kind, &c->pigments);
@@ -284,6 +353,7 @@ static void check_normal(const Check *c, const FieldPath *path, uint32_t index, 
     Cost cost = {.all = kind == PATTERN_AVERAGE};
     float weights = 0;
     check_pattern(c, path, &normal->pattern);
+    check_inner(c, path, &c->normals, index, &normal->pattern, depth, &cost);
     check_place(c, path, kind, &c->normals);
     if (kind == PATTERN_PLAIN)
         refuse(c, &type, "a normal needs a pattern");
@@ -359,6 +429,7 @@ static void check_texture(const Check *c, const FieldPath *path, uint32_t index,
     Cost cost = {.all = kind == PATTERN_AVERAGE};
     float weights = 0;
     check_pattern(c, path, &texture->pattern);
+    check_inner(c, path, &c->textures, index, &texture->pattern, depth, &cost);
     check_place(c, path, kind, &c->textures);
     if (kind == PATTERN_PLAIN && texture->layer_count == 0 && texture->entry_count == 0)
         refuse(c, path, "it has no layers");
@@ -395,6 +466,11 @@ static void check_pool(const Check *c, const CheckPool *pool, const char *name,
 }
 
 void check_texture_pools(const Check *c) {
+    for (uint32_t i = 0; i < c->scene->density_count; i++) {
+        const FieldPath path = path_item(NULL, "densities", i), file = path_field(&path, "path");
+        if (!c->scene->densities[i].path || !c->scene->densities[i].path[0])
+            refuse(c, &file, "it is missing");
+    }
     for (uint32_t i = 0; i < c->scene->picture_count; i++) {
         const FieldPath path = path_item(NULL, "pictures", i);
         check_picture(c, &path, &c->scene->pictures[i]);

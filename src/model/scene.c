@@ -95,6 +95,12 @@ Pattern pattern_default(void) {
         .crackle = {.form = {-1, 1, 0}, .metric = 2},
         .facets = {.size = 0.1, .metric = 2},
         .picture = NO_INDEX,
+        .slope = {.share = 1},
+        .fractal = {.exponent = 2, .exterior = 1, .exterior_factor = 1, .interior_factor = 1},
+        .function = NO_INDEX,
+        .pigment = NO_INDEX,
+        .object = NO_INDEX,
+        .density = NO_INDEX,
     };
 }
 
@@ -165,6 +171,7 @@ bool object_is_tree(const Object *object) {
 // ORDER feature: sorted by byte, so that features in order give a sorted list.
 #define FEATURES(X)                                                                                \
     X(agate)                                                                                       \
+    X(aoi)                                                                                         \
     X(area_light)                                                                                  \
     X(average)                                                                                     \
     X(bezier_patch)                                                                                \
@@ -190,6 +197,7 @@ bool object_is_tree(const Object *object) {
     X(cylinder_camera)                                                                             \
     X(cylinder_light)                                                                              \
     X(cylindrical)                                                                                 \
+    X(density_file)                                                                                \
     X(dents)                                                                                       \
     X(diffuse_back)                                                                                \
     X(disc)                                                                                        \
@@ -198,6 +206,8 @@ bool object_is_tree(const Object *object) {
     X(fisheye)                                                                                     \
     X(focal_blur)                                                                                  \
     X(fog)                                                                                         \
+    X(fractal)                                                                                     \
+    X(function)                                                                                    \
     X(gradient)                                                                                    \
     X(granite)                                                                                     \
     X(hexagon)                                                                                     \
@@ -223,6 +233,7 @@ bool object_is_tree(const Object *object) {
     X(no_shadow)                                                                                   \
     X(normal)                                                                                      \
     X(normal_map)                                                                                  \
+    X(object_pattern)                                                                              \
     X(omnimax)                                                                                     \
     X(onion)                                                                                       \
     X(orthographic)                                                                                \
@@ -233,6 +244,7 @@ bool object_is_tree(const Object *object) {
     X(perspective)                                                                                 \
     X(phong)                                                                                       \
     X(pigment_map)                                                                                 \
+    X(pigment_pattern)                                                                             \
     X(planar)                                                                                      \
     X(plane)                                                                                       \
     X(point_light)                                                                                 \
@@ -246,6 +258,7 @@ bool object_is_tree(const Object *object) {
     X(ripples)                                                                                     \
     X(shadowless_light)                                                                            \
     X(sky_sphere)                                                                                  \
+    X(slope)                                                                                       \
     X(slope_map)                                                                                   \
     X(specular)                                                                                    \
     X(sphere)                                                                                      \
@@ -297,15 +310,17 @@ static void need(FeatureSet *set, Feature feature, bool needed) { set->has[featu
 
 // ORDER pattern_type; a plain colour needs nothing.
 static const Feature PATTERN_FEATURES[] = {
-    FEATURE_COUNT,         FEATURE_checker,    FEATURE_gradient,    FEATURE_agate,
-    FEATURE_boxed,         FEATURE_bozo,       FEATURE_brick,       FEATURE_cells,
-    FEATURE_crackle,       FEATURE_cubic,      FEATURE_cylindrical, FEATURE_dents,
-    FEATURE_granite,       FEATURE_hexagon,    FEATURE_leopard,     FEATURE_marble,
-    FEATURE_onion,         FEATURE_planar,     FEATURE_quilted,     FEATURE_radial,
-    FEATURE_ripples,       FEATURE_spherical,  FEATURE_spiral1,     FEATURE_spiral2,
-    FEATURE_square,        FEATURE_triangular, FEATURE_waves,       FEATURE_wood,
-    FEATURE_wrinkles,      FEATURE_average,    FEATURE_bumps,       FEATURE_facets,
-    FEATURE_image_pattern, FEATURE_image_map,  FEATURE_bump_map,    FEATURE_material_map,
+    FEATURE_COUNT,         FEATURE_checker,    FEATURE_gradient,        FEATURE_agate,
+    FEATURE_boxed,         FEATURE_bozo,       FEATURE_brick,           FEATURE_cells,
+    FEATURE_crackle,       FEATURE_cubic,      FEATURE_cylindrical,     FEATURE_dents,
+    FEATURE_granite,       FEATURE_hexagon,    FEATURE_leopard,         FEATURE_marble,
+    FEATURE_onion,         FEATURE_planar,     FEATURE_quilted,         FEATURE_radial,
+    FEATURE_ripples,       FEATURE_spherical,  FEATURE_spiral1,         FEATURE_spiral2,
+    FEATURE_square,        FEATURE_triangular, FEATURE_waves,           FEATURE_wood,
+    FEATURE_wrinkles,      FEATURE_average,    FEATURE_bumps,           FEATURE_facets,
+    FEATURE_image_pattern, FEATURE_image_map,  FEATURE_bump_map,        FEATURE_slope,
+    FEATURE_aoi,           FEATURE_function,   FEATURE_pigment_pattern, FEATURE_object_pattern,
+    FEATURE_density_file,  FEATURE_fractal,    FEATURE_material_map,
 };
 _Static_assert(sizeof PATTERN_FEATURES / sizeof *PATTERN_FEATURES == PATTERN_MODELLED,
                "a feature for each pattern");

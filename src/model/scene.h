@@ -158,6 +158,13 @@ typedef enum {
     PATTERN_IMAGE,        // picture: image_pattern, its brightness or transparency
     PATTERN_IMAGE_MAP,    // picture; of pigments only, which have no map then
     PATTERN_BUMP_MAP,     // picture; of normals only
+    PATTERN_SLOPE,        // slope
+    PATTERN_AOI,          // the angle to the ray
+    PATTERN_FUNCTION,     // function, of three parameters
+    PATTERN_PIGMENT,      // pigment: its brightness
+    PATTERN_OBJECT,       // list pattern: outside at 0, inside at 1; object
+    PATTERN_DENSITY,      // density, density_between
+    PATTERN_FRACTAL,      // fractal: mandel, julia, magnet
     PATTERN_MATERIAL_MAP, // picture; of textures only: its entries by number, without values
     PATTERN_MODELLED,     // patterns from here on are not in a Scene
 } PatternType;
@@ -235,6 +242,29 @@ typedef struct {
     double size, coords, metric; // coords 0: cells of the normal itself, else of the point
 } FacetsShape;
 
+// How steep the surface is, and how high the point; each may have a range that becomes 0..1 (none:
+// high == low).
+typedef struct {
+    Vec3 slope; // unit: how much the surface's normal points there; with point_at: a place to face
+    bool point_at;
+    double low, high;
+    Vec3 altitude; // unit: how far the point lies along it; 0: it does not count
+    double altitude_low, altitude_high;
+    double share; // of the slope, 0..1; the altitude has the rest
+} SlopeShape;
+
+enum { FRACTAL_MAX_EXPONENT = 33, FRACTAL_MAX_ITERATIONS = 10000000 };
+
+typedef struct {
+    int exponent;           // 2..33
+    int magnet;             // 1 or 2: of that magnet, without an exponent
+    int iterations;         // at most
+    bool julia;             // else Mandelbrot's: c is the point
+    Vec2 c;                 // with julia
+    int exterior, interior; // what is shown: 0..8, 0..6
+    double exterior_factor, interior_factor;
+} FractalShape;
+
 // ORDER picture_type: the formats that a scene names.
 typedef enum {
     PICTURE_PNG,
@@ -269,6 +299,10 @@ typedef enum { BETWEEN_NONE, BETWEEN_BILINEAR, BETWEEN_BICUBIC, BETWEEN_NORMALIZ
 
 // ORDER picture_use: which number a pixel is, where one is asked for.
 typedef enum { USE_PICTURE_COLOR, USE_PICTURE_INDEX, USE_PICTURE_ALPHA } PictureUse;
+
+typedef struct {
+    const char *path; // DF3; in a scene file as that of a picture
+} DensityFile;
 
 // One colour of the palette made transparent.
 typedef struct {
@@ -315,6 +349,10 @@ typedef struct {
     CrackleShape crackle;  // default form <-1, 1, 0>, metric 2
     FacetsShape facets;    // default size 0.1, coords 0, metric 2
     uint32_t picture;      // of the patterns that look at one
+    SlopeShape slope;      // default share 1
+    FractalShape fractal;  // default exponent 2, exterior 1 and interior 0 with factors 1
+    uint32_t function, pigment, object, density; // object: in Scene.projections
+    int density_between;                         // 0, 1 linear, 2 cubic
 } Pattern;
 
 // One entry of a map: `value` is the position; the colour, or a pigment when pigment != NO_INDEX.
@@ -546,6 +584,8 @@ typedef struct {
     uint32_t light_count;
     Picture *pictures;
     uint32_t picture_count;
+    DensityFile *densities;
+    uint32_t density_count;
     Pigment *pigments;
     uint32_t pigment_count;
     Normal *normals;
@@ -560,7 +600,8 @@ typedef struct {
     uint32_t object_count;
     uint32_t *roots; // what stands at top level, in the order of the source
     uint32_t root_count;
-    uint32_t *projections; // objects that are not in the picture: see Light.projection
+    uint32_t
+        *projections; // objects that are not in the picture: see Light.projection, Pattern.object
     uint32_t projection_count;
     const char **requires; // features the scene needs, sorted, each once ("bicubic_patch", ...)
     uint32_t requires_count;

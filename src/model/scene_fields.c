@@ -338,6 +338,7 @@ static const Field SCENE_FIELDS[] = {
     RECORDS(Scene, rainbows, rainbow_count, "rainbows", &RAINBOW),
     RECORDS(Scene, lights, light_count, "lights", &LIGHT),
     RECORDS(Scene, pictures, picture_count, "pictures", &PICTURE_RECORD),
+    RECORDS(Scene, densities, density_count, "densities", &DENSITY_RECORD),
     RECORDS(Scene, pigments, pigment_count, "pigments", &PIGMENT_RECORD),
     RECORDS(Scene, normals, normal_count, "normals", &NORMAL_RECORD),
     RECORDS(Scene, functions, function_count, "functions", &FUNCTION_RECORD),

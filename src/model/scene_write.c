@@ -137,6 +137,9 @@ static void write_record(Writer *w, const Record *record, const void *at) {
         IndexEntry index;
         FacetsShape facets;
         Picture picture;
+        DensityFile density;
+        SlopeShape slope_shape;
+        FractalShape fractal;
         PaletteChange change;
         Turbulence turbulence;
         CrackleShape crackle;

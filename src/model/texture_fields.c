@@ -8,11 +8,13 @@
 
 // ORDER pattern_type
 static const char *const PATTERN_TYPE_NAMES[] = {
-    "plain",        "checker", "gradient", "agate",       "boxed",         "bozo",      "brick",
-    "cells",        "crackle", "cubic",    "cylindrical", "dents",         "granite",   "hexagon",
-    "leopard",      "marble",  "onion",    "planar",      "quilted",       "radial",    "ripples",
-    "spherical",    "spiral1", "spiral2",  "square",      "triangular",    "waves",     "wood",
-    "wrinkles",     "average", "bumps",    "facets",      "image_pattern", "image_map", "bump_map",
+    "plain",        "checker",    "gradient",        "agate",     "boxed",        "bozo",
+    "brick",        "cells",      "crackle",         "cubic",     "cylindrical",  "dents",
+    "granite",      "hexagon",    "leopard",         "marble",    "onion",        "planar",
+    "quilted",      "radial",     "ripples",         "spherical", "spiral1",      "spiral2",
+    "square",       "triangular", "waves",           "wood",      "wrinkles",     "average",
+    "bumps",        "facets",     "image_pattern",   "image_map", "bump_map",     "slope",
+    "aoi",          "function",   "pigment_pattern", "object",    "density_file", "fractal",
     "material_map", NULL,
 };
 _Static_assert(sizeof PATTERN_TYPE_NAMES / sizeof *PATTERN_TYPE_NAMES == PATTERN_MODELLED + 1,
@@ -183,6 +185,13 @@ static const Field PICTURE_FIELDS[] = {
     END,
 };
 static void default_picture(void *out) { *(Picture *)out = picture_default(); }
+static const Field DENSITY_FIELDS[] = {
+    {.name = "path", .type = FIELD_PATH, .presence = FIELD_REQUIRED, AT(DensityFile, path)},
+    END,
+};
+static void default_density(void *out) { *(DensityFile *)out = (DensityFile){0}; }
+const Record DENSITY_RECORD = {NULL, DENSITY_FIELDS, sizeof(DensityFile), default_density, NULL};
+
 const Record PICTURE_RECORD = {NULL, PICTURE_FIELDS, sizeof(Picture), default_picture, NULL};
 
 static const Field FACETS_FIELDS[] = {
@@ -193,6 +202,35 @@ static const Field FACETS_FIELDS[] = {
 };
 static void default_facets(void *out) { *(FacetsShape *)out = pattern_default().facets; }
 static const Record FACETS = {NULL, FACETS_FIELDS, sizeof(FacetsShape), default_facets, NULL};
+
+static const Field SLOPE_FIELDS[] = {
+    VEC3(SlopeShape, slope, "slope"),
+    BOOL(SlopeShape, point_at, "point_at"),
+    DOUBLE(SlopeShape, low, "low"),
+    DOUBLE(SlopeShape, high, "high"),
+    VEC3(SlopeShape, altitude, "altitude"),
+    DOUBLE(SlopeShape, altitude_low, "altitude_low"),
+    DOUBLE(SlopeShape, altitude_high, "altitude_high"),
+    DOUBLE(SlopeShape, share, "share"),
+    END,
+};
+static void default_slope(void *out) { *(SlopeShape *)out = pattern_default().slope; }
+static const Record SLOPE = {NULL, SLOPE_FIELDS, sizeof(SlopeShape), default_slope, NULL};
+
+static const Field FRACTAL_FIELDS[] = {
+    INT(FractalShape, exponent, "exponent"),
+    INT(FractalShape, magnet, "magnet"),
+    INT(FractalShape, iterations, "iterations"),
+    BOOL(FractalShape, julia, "julia"),
+    {.name = "c", .type = FIELD_DOUBLES, AT(FractalShape, c), .columns = 2},
+    INT(FractalShape, exterior, "exterior"),
+    DOUBLE(FractalShape, exterior_factor, "exterior_factor"),
+    INT(FractalShape, interior, "interior"),
+    DOUBLE(FractalShape, interior_factor, "interior_factor"),
+    END,
+};
+static void default_fractal(void *out) { *(FractalShape *)out = pattern_default().fractal; }
+static const Record FRACTAL = {NULL, FRACTAL_FIELDS, sizeof(FractalShape), default_fractal, NULL};
 
 // The pattern inside a pigment, a normal or a texture, in two parts: its kind and shape, and what
 // moves the point.
@@ -215,7 +253,15 @@ static const Record FACETS = {NULL, FACETS_FIELDS, sizeof(FacetsShape), default_
         FLOAT(Struct, pattern.frequency, "frequency"), FLOAT(Struct, pattern.phase, "phase"),      \
         FLOAT(Struct, pattern.exponent, "exponent"),                                               \
         INT(Struct, pattern.noise_generator, "noise_generator"),                                   \
-        INDEX(Struct, pattern.picture, "picture")
+        INDEX(Struct, pattern.picture, "picture"),                                                 \
+        {.name = "slope", .type = FIELD_RECORD, AT(Struct, pattern.slope), .record = &SLOPE},      \
+        {.name = "fractal",                                                                        \
+         .type = FIELD_RECORD,                                                                     \
+         AT(Struct, pattern.fractal),                                                              \
+         .record = &FRACTAL},                                                                      \
+        INDEX(Struct, pattern.function, "function"), INDEX(Struct, pattern.pigment, "pigment"),    \
+        INDEX(Struct, pattern.object, "object"), INDEX(Struct, pattern.density, "density"),        \
+        INT(Struct, pattern.density_between, "density_interpolate")
 #define PATTERN_WARPS(Struct)                                                                      \
     RECORDS(Struct, pattern.warps, pattern.warp_count, "warps", &WARP), {                          \
         .name = "turbulence", .type = FIELD_RECORD, .presence = FIELD_FLAGGED,                     \

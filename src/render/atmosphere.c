@@ -11,7 +11,7 @@ static Color sky_pigment(const Shading *shading, uint32_t i, Vec3 dir) {
     const SkySphere *sky = &shading->scene->sky_sphere;
     TextureHit at = texture_no_hit(shading->quality.quick_color);
     Color c = {0};
-    pigment_color(&shading->textures, sky->pigments[i], &at,
+    pigment_color(shading->textures, sky->pigments[i], &at,
                   transform_inv_point(&sky->transform, dir), &c);
     return c;
 }

@@ -42,7 +42,7 @@ static bool bow_color(Tracer *tracer, const Rainbow *bow, const BowAngles *angle
     if (!(index >= 0.0 && index <= 1.0 - SHADE_EPS))
         return false;
     const TextureHit nowhere = texture_no_hit(false);
-    pigment_color(&tracer->shading->textures, bow->pigment, &nowhere, vec3(index, 0, 0), color);
+    pigment_color(tracer->shading->textures, bow->pigment, &nowhere, vec3(index, 0, 0), color);
     return true;
 }
 

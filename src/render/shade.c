@@ -56,12 +56,12 @@ static void shade_layer(Tracer *tracer, const Surface *surface, const Layer *lay
     const Shading *shading = tracer->shading;
     Vec3 normal = surface->normal;
     if (shading->quality.normals)
-        normal = texture_normal(&shading->textures, layer, surface->spaces, surface->at, p, normal);
+        normal = texture_normal(shading->textures, layer, surface->spaces, surface->at, p, normal);
     uint32_t index = layers->count++;
     if (index == 0)
         layers->normal = normal;
     Color c = {0};
-    bool found = pigment_color(&shading->textures, layer->pigment, surface->at, p, &c);
+    bool found = pigment_color(shading->textures, layer->pigment, surface->at, p, &c);
     layers->found |= found;
     Rgb reflectivity = {0};
     if (shading->quality.ambient_only) {
@@ -163,7 +163,7 @@ static Color shade_plain(Tracer *tracer, const Surface *surface, const Texture *
 // Textures in a map are shaded to the end, reflections and all, and the colours are mixed.
 static Color shade_texture(Tracer *tracer, const Surface *surface, uint32_t index, Vec3 p) {
     TextureChoice choice =
-        texture_choose(&tracer->shading->textures, index, surface->spaces, surface->at, p);
+        texture_choose(tracer->shading->textures, index, surface->spaces, surface->at, p);
     if (choice.layers != NULL)
         return shade_plain(tracer, surface, choice.layers, choice.p);
     if (choice.average) {

@@ -49,7 +49,8 @@ typedef struct {
 struct Shading {
     const Scene *scene;
     const World *world;
-    Textures textures;
+    Textures *textures;
+    World **bodies; // one per projection of the scene that a pattern looks into
     TraceOptions options;
     Quality quality;
     bool legacy;          // effective version < 3.7: other formulas for opacity and sky

@@ -49,7 +49,7 @@ typedef struct {
 
 // What one stack of layers lets through at p, as a colour that filters all of it.
 static Color layers_filter(const Filter *f, const Texture *texture, Vec3 p) {
-    const Textures *textures = &f->shading->textures;
+    const Textures *textures = f->shading->textures;
     Rgb through = rgb(1.0f, 1.0f, 1.0f);
     for (uint32_t i = 0; i < texture->layer_count; i++) {
         const Layer *layer = &texture->layers[i];
@@ -67,7 +67,7 @@ static Color layers_filter(const Filter *f, const Texture *texture, Vec3 p) {
 }
 
 static Color texture_filter(const Filter *f, uint32_t index, Vec3 p) {
-    TextureChoice choice = texture_choose(&f->shading->textures, index, f->spaces, f->at, p);
+    TextureChoice choice = texture_choose(f->shading->textures, index, f->spaces, f->at, p);
     if (choice.layers != NULL)
         return layers_filter(f, choice.layers, choice.p);
     if (choice.average) {

@@ -36,9 +36,9 @@ static void prepare_objects(Shading *shading) {
         const Object *object = &scene->objects[i];
         ObjectInfo *info = &shading->objects[i];
         info->body = body_of(scene, i);
-        info->opaque = texture_is_opaque(&shading->textures, object->texture) &&
+        info->opaque = texture_is_opaque(shading->textures, object->texture) &&
                        (object->interior_texture == NO_INDEX ||
-                        texture_is_opaque(&shading->textures, object->interior_texture));
+                        texture_is_opaque(shading->textures, object->interior_texture));
         shading->groups |= object->no_global_lights;
         if (!object_is_tree(object) && !object->no_shadow && !info->opaque)
             shading->all_opaque = false;
@@ -48,14 +48,39 @@ static void prepare_objects(Shading *shading) {
 }
 
 // The object alone in a world of its own.
-static World *projection_world(const Shading *shading, const Light *light) {
+static World *lone_world(const Shading *shading, uint32_t projection) {
     Scene *scene = arena_copy(shading->arena, shading->scene, sizeof *scene);
     PatchSetOptions patches = shading->options.patches;
     if (!(patches.tolerance > 0.0))
         patches = patchset_options_default();
-    scene->roots = &shading->scene->projections[light->projection];
+    scene->roots = &shading->scene->projections[projection];
     scene->root_count = 1;
     return world_create(scene, &patches);
+}
+
+// Patterns of objects: each in a world of its own, so that `inside` asks only for it.
+static bool body_holds(const void *objects, uint32_t object, Vec3 p) {
+    const Shading *shading = objects;
+    return world_inside(shading->bodies[object], shading->scene->projections[object], p);
+}
+
+static void prepare_body(Shading *shading, const Pattern *pattern) {
+    if (pattern->type != PATTERN_OBJECT || shading->bodies[pattern->object] != NULL)
+        return;
+    shading->bodies[pattern->object] = lone_world(shading, pattern->object);
+}
+
+static void prepare_bodies(Shading *shading) {
+    const Scene *scene = shading->scene;
+    shading->bodies = ARENA_ARRAY(shading->arena, World *, scene->projection_count);
+    for (uint32_t i = 0; i < scene->pigment_count; i++)
+        prepare_body(shading, &scene->pigments[i].pattern);
+    for (uint32_t i = 0; i < scene->normal_count; i++)
+        prepare_body(shading, &scene->normals[i].pattern);
+    for (uint32_t i = 0; i < scene->texture_count; i++)
+        prepare_body(shading, &scene->textures[i].pattern);
+    shading->textures->inside = body_holds;
+    shading->textures->objects = shading;
 }
 
 static void prepare_lights(Shading *shading) {
@@ -69,7 +94,7 @@ static void prepare_lights(Shading *shading) {
             axis->travel = vec_normalize(vec_sub(light->point_at, light->location));
         shading->groups |= light->group != 0;
         if (light->has_projection)
-            shading->projections[i] = projection_world(shading, light);
+            shading->projections[i] = lone_world(shading, light->projection);
         bool spot = light->type == LIGHT_SPOT;
         axis->radius = spot ? cos(light->radius * M_PI / 180.0) : light->radius;
         axis->falloff = spot ? cos(light->falloff * M_PI / 180.0) : light->falloff;
@@ -85,7 +110,8 @@ Shading *shading_create(const Scene *scene, const World *world, const TraceOptio
     shading->arena = arena;
     shading->scene = scene;
     shading->world = world;
-    shading->textures = textures_make(scene, arena);
+    shading->textures = textures_create(scene, arena);
+    prepare_bodies(shading);
     shading->options = *options;
     shading->quality = quality_of(options->quality);
     shading->legacy = scene->settings.version < 370;
@@ -103,6 +129,8 @@ void shading_destroy(Shading *shading) {
         return;
     for (uint32_t i = 0; i < shading->scene->light_count; i++)
         world_destroy(shading->projections[i]);
+    for (uint32_t i = 0; i < shading->scene->projection_count; i++)
+        world_destroy(shading->bodies[i]);
     arena_destroy(shading->arena);
 }
 

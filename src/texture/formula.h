@@ -59,6 +59,8 @@ Vec3 bump_quilted(const Pattern *pattern, double amount, Vec3 p, Vec3 n);
 Vec3 bump_waves(const Pattern *pattern, double amount, Vec3 p, Vec3 n, int count); // or ripples
 Vec3 bump_wrinkles(double amount, Vec3 p, Vec3 n);
 
+double fractal_value(const Pattern *pattern, Vec3 p); // mandel, julia
+
 double crackle_value(const CrackleShape *shape, Vec3 p, int generator);
 
 #endif

@@ -4,9 +4,11 @@
 // that POV-Ray keeps as float are float in the scene and promoted when used.
 #include "texture/pattern.h"
 
+#include "texture/density.h"
 #include "texture/formula.h"
 #include "noise/noise.h"
 #include "texture/image_map.h"
+#include "texture/pigment.h"
 #include "texture/warp.h"
 
 #include <assert.h>
@@ -99,7 +101,80 @@ static double noise_formula(const Textures *textures, const Pattern *pattern, Ve
     }
 }
 
-static double formula(const Textures *textures, const Pattern *pattern, Vec3 p) {
+// The angle between the surface and a direction, or the way to a place, and how high the point is.
+static double slope(const SlopeShape *shape, const TextureHit *hit, Vec3 p) {
+    Vec3 to = shape->slope;
+    if (shape->point_at)
+        to = vec_normalize(vec_sub(shape->slope, hit->p));
+    double v = vec_dot(hit->normal, to);
+    v = v > 1.0 ? 1.0 : v < -1.0 ? -1.0 : v;
+    v = (asin(v) / M_PI * 2.0 + 1.0) * 0.5;
+    double range = shape->high - shape->low;
+    if (range != 0.0)
+        v = (v - shape->low) / range;
+    if (shape->share != 1.0) {
+        double height = vec_dot(p, shape->altitude);
+        range = shape->altitude_high - shape->altitude_low;
+        if (range != 0.0)
+            height = (height - shape->altitude_low) / range;
+        v = shape->share * v + (1.0 - shape->share) * height;
+        if (v >= 1.0 && v - 1.0 < FORMULA_EPS)
+            return v - FORMULA_EPS;
+    } else if (v == 1.0) {
+        return v - FORMULA_EPS;
+    }
+    return v < 0.0 ? 1.0 + fmod(v, 1.0) : fmod(v, 1.0);
+}
+
+// The angle at which the ray meets the surface; 0 without a surface.
+static double angle_of_incidence(const TextureHit *hit) {
+    if (hit->dir.x == 0.0 && hit->dir.y == 0.0 && hit->dir.z == 0.0)
+        return 0.0;
+    double cosine = vec_dot(vec_normalize(hit->normal), vec_normalize(hit->dir));
+    return acos(cosine < -1.0 ? -1.0 : cosine > 1.0 ? 1.0 : cosine) / M_PI;
+}
+
+static double function(const Textures *textures, const Pattern *pattern, Vec3 p) {
+    const double arguments[3] = {p.x, p.y, p.z};
+    double v = function_value(&textures->functions, pattern->function, arguments);
+    return v > 1.0 ? fmod(v, 1.0) : v;
+}
+
+static double brightness(const Textures *textures, const Pattern *pattern, const TextureHit *hit,
+                         Vec3 p) {
+    Color c;
+    if (!pigment_color(textures, pattern->pigment, hit, p, &c))
+        return 0.0;
+    return rgb_grey(color_rgb(c));
+}
+
+// Patterns that look at something else than the point.
+static double other_formula(const Textures *textures, const Pattern *pattern, const TextureHit *hit,
+                            Vec3 p) {
+    switch (pattern->type) {
+    case PATTERN_SLOPE:
+        return slope(&pattern->slope, hit, p);
+    case PATTERN_AOI:
+        return angle_of_incidence(hit);
+    case PATTERN_FUNCTION:
+        return function(textures, pattern, p);
+    case PATTERN_PIGMENT:
+        return brightness(textures, pattern, hit, p);
+    case PATTERN_OBJECT:
+        return textures->inside(textures->objects, pattern->object, p) ? 1.0 : 0.0;
+    case PATTERN_DENSITY:
+        return density_value(&textures->densities[pattern->density], pattern->density_between, p);
+    case PATTERN_FRACTAL:
+        return fractal_value(pattern, p);
+    case PATTERN_IMAGE:
+        return image_map_value(&textures->pictures[pattern->picture], p);
+    default:
+        return noise_formula(textures, pattern, p);
+    }
+}
+
+static double formula(const Textures *textures, const Pattern *pattern, const TextureHit *hit,
+                      Vec3 p) {
     switch (pattern->type) {
     case PATTERN_CHECKER:
         return tiles_checker(p);
@@ -117,8 +192,6 @@ static double formula(const Textures *textures, const Pattern *pattern, Vec3 p) 
         return solid_cylindrical(p);
     case PATTERN_HEXAGON:
         return tiles_hexagon(p);
-    case PATTERN_IMAGE:
-        return image_map_value(&textures->pictures[pattern->picture], p);
     case PATTERN_LEOPARD:
         return solid_leopard(p);
     case PATTERN_ONION:
@@ -136,14 +209,28 @@ static double formula(const Textures *textures, const Pattern *pattern, Vec3 p) 
     case PATTERN_TRIANGULAR:
         return tiles_triangular(p);
     default:
-        return noise_formula(textures, pattern, p);
+        return other_formula(textures, pattern, hit, p);
+    }
+}
+
+bool pattern_has_value(PatternType type) {
+    switch (type) {
+    case PATTERN_PLAIN:
+    case PATTERN_AVERAGE:
+    case PATTERN_BUMPS:
+    case PATTERN_FACETS:
+    case PATTERN_IMAGE_MAP:
+    case PATTERN_BUMP_MAP:
+    case PATTERN_MATERIAL_MAP:
+        return false;
+    default:
+        return true;
     }
 }
 
 double pattern_value(const Textures *textures, const Pattern *pattern, const TextureHit *hit,
                      Vec3 warped) {
-    (void)hit;
-    double v = formula(textures, pattern, warped);
+    double v = formula(textures, pattern, hit, warped);
     if (pattern->frequency != 0.0f)
         v = fmod(v * pattern->frequency + pattern->phase, WRAP);
     if (v < 0.0)

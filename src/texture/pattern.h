@@ -9,9 +9,12 @@
 Vec3 pattern_point(const Pattern *pattern, Vec3 p);
 
 // The pattern's value at a point that went through pattern_point(): after frequency, phase and
-// wave. Not for PATTERN_PLAIN, PATTERN_AVERAGE and the patterns that only bend normals.
+// wave. Only for patterns that have one.
 double pattern_value(const Textures *textures, const Pattern *pattern, const TextureHit *hit,
                      Vec3 warped);
+
+// Have pattern and picture a value at each point?
+bool pattern_has_value(PatternType type);
 
 // The noise generator in force: the pattern's own, or the scene's.
 int pattern_generator(const Textures *textures, const Pattern *pattern);

@@ -3,18 +3,26 @@
 #ifndef TEXTURE_TEXTURES_H
 #define TEXTURE_TEXTURES_H
 
+#include "function/function.h"
 #include "model/scene.h"
 
 struct ImageMap;
+struct Density;
 
 typedef struct {
     const Scene *scene;              // must outlive this
     const struct ImageMap *pictures; // one per picture of the scene
+    const struct Density *densities; // likewise
+    FunctionPool functions;
+    // Is p in the object of a pattern: number `object` of scene->projections? Who makes the objects
+    // ready fills these in.
+    bool (*inside)(const void *objects, uint32_t object, Vec3 p);
+    const void *objects;
 } Textures;
 
-// Builds the tables of the noise too, and reads the pictures; dies with a message if one cannot be
+// Builds the tables of the noise too, and reads the files; dies with a message if one cannot be
 // read. All memory in arena.
-Textures textures_make(const Scene *scene, Arena *arena);
+Textures *textures_create(const Scene *scene, Arena *arena);
 
 // The surface where a ray has met it.
 typedef struct {

@@ -119,6 +119,31 @@ test: deps
 	@$(MAKE) --no-print-directory -j$$(nproc) all build/test/$(IMAGE_LIB) $(PROGRAMS:%=build/test/%) $(TESTS:%=build/test/%)
 	@tests/run.sh $(TESTS)
 
+# The fuzzers, by clang; what of the library they need. tests/fuzz.sh says what they do.
+FUZZ_OBJ = $(patsubst %.c,build/fuzz/%.o,$(filter-out src/render/% src/bench/%,$(LIB_C))) \
+           $(KERNEL_TEST:build/test/%=build/fuzz/%)
+FUZZ     = -std=c11 $(filter-out -fopenmp,$(BASE)) -w -O2 -g -fsanitize=fuzzer-no-link,address,undefined \
+           -fsanitize=float-cast-overflow -fno-sanitize-recover=undefined,float-cast-overflow -DHOSTILE
+build/fuzz/src/kernel/kernel_%.o: $(KERNEL)
+	@mkdir -p $(@D)
+	@clang $(FUZZ) $(ISA_$*) -Wno-psabi -DKERNEL_ISA=$* -c -o $@ $<
+build/fuzz/%.o: %.c
+	@mkdir -p $(@D)
+	@echo '  CC  $< (fuzz)'
+	@clang $(FUZZ) -c -o $@ $<
+build/fuzz/lib.a: $(FUZZ_OBJ)
+	@rm -f $@
+	@ar rcs $@ $^
+build/fuzz/fuzz_%: build/fuzz/tests/fuzz/fuzz_%.o build/fuzz/lib.a
+	@echo '  LD  $@'
+	@clang -fsanitize=fuzzer,address,undefined -o $@ $^ $(LIBS) -ldl
+
+fuzz: deps
+	@tests/deps.sh clang libclang-rt-14-dev
+	@$(MAKE) --no-print-directory -j$$(nproc) build/fuzz/fuzz_scene build/fuzz/fuzz_json build/pov2qi
+	@tests/fuzz.sh scene 3000
+	@tests/fuzz.sh json 600
+
 lint:
 	@tests/deps.sh $(LINT_PACKAGES)
 	@tests/lint.sh
@@ -158,5 +183,5 @@ bench: deps
 bench-rays: build/bench_rays
 	@build/bench_rays
 
-.PHONY: install all deps test test-examples lint demo gallery bench bench-rays clean
+.PHONY: install all deps test test-examples fuzz lint demo gallery bench bench-rays clean
 -include $(shell find build -name '*.d' 2>/dev/null)

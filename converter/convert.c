@@ -88,6 +88,19 @@ Scene *convert_scene(const RenderOptions *options, Arena *arena) {
     return convert_scene_listing(options, arena, NULL);
 }
 
+static Scene *convert_source(Converter *cv, const Source *source) {
+    const Loc start_of_file = {.file = source->name, .line = 1, .column = 1};
+    cv->utf8 = source->utf8;
+    push_file(cv, source, NULL);
+    if (cv->options->include_header)
+        push_file(cv, source_open(cv, cv->options->include_header, FILE_INCLUDE, &(Loc){0}), NULL);
+    parse_scene_statements(cv);
+    if (!cv->version_set)
+        note_at(&start_of_file,
+                "no #version: read as version 3.62 where the picture depends on it");
+    return emit_scene(cv);
+}
+
 Scene *convert_scene_listing(const RenderOptions *options, Arena *arena, MissingList *missing) {
     if (!options->input)
         die("no input file");
@@ -95,15 +108,16 @@ Scene *convert_scene_listing(const RenderOptions *options, Arena *arena, Missing
     Converter *cv = start(options, arena);
     cv->missing = missing;
     declare_initial(cv);
-    const Source *source = source_open(cv, options->input, FILE_SCENE, &(Loc){0});
-    const Loc start_of_file = {.file = source->name, .line = 1, .column = 1};
-    cv->utf8 = source->utf8;
-    push_file(cv, source, NULL);
-    if (options->include_header)
-        push_file(cv, source_open(cv, options->include_header, FILE_INCLUDE, &(Loc){0}), NULL);
-    parse_scene_statements(cv);
-    if (!cv->version_set)
-        note_at(&start_of_file,
-                "no #version: read as version 3.62 where the picture depends on it");
-    return emit_scene(cv);
+    return convert_source(cv, source_open(cv, options->input, FILE_SCENE, &(Loc){0}));
+}
+
+Scene *convert_bytes(const RenderOptions *options, Arena *arena, const void *bytes, size_t size,
+                     MissingList *missing) {
+    Converter *cv = start(options, arena);
+    cv->missing = missing;
+    declare_initial(cv);
+    char *text = arena_alloc(arena, size + 1);
+    if (size)
+        memcpy(text, bytes, size);
+    return convert_source(cv, source_create(cv, options->input, text, size, FILE_SCENE));
 }

@@ -28,6 +28,10 @@ typedef ARRAY(Missing) MissingList;
 // the list is the caller's to free.
 Scene *convert_scene_listing(const RenderOptions *options, Arena *arena, MissingList *missing);
 
+// The same for a scene in memory, called options->input in messages.
+Scene *convert_bytes(const RenderOptions *options, Arena *arena, const void *bytes, size_t size,
+                     MissingList *missing);
+
 // What the scene of options->input requires and what of it is missing, for people or as JSON.
 void requires_print(FILE *out, const RenderOptions *options, const Scene *scene,
                     const MissingList *missing);

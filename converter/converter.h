@@ -50,6 +50,9 @@ typedef enum { FILE_SCENE, FILE_INCLUDE, FILE_IMAGE, FILE_FONT, FILE_DENSITY, FI
 const char *source_find(Converter *cv, const char *name, FileKind kind);
 // Finds and reads; dies at loc when there is none or it cannot be read.
 const Source *source_open(Converter *cv, const char *name, FileKind kind, const Loc *loc);
+// A source of text that is there already (NUL-terminated, in the arena).
+const Source *source_create(Converter *cv, const char *name, const char *text, size_t size,
+                            FileKind kind);
 // The path of a file that a statement names and other code reads; dies at loc when there is none.
 const char *source_require(Converter *cv, const char *name, FileKind kind, const Loc *loc);
 // The name of such a file at the cursor, which must be there; its path.
@@ -135,8 +138,9 @@ void leave_level(Converter *cv);
 uint64_t limit_of(const Converter *cv, Limit limit);
 const char *limit_hint(Converter *cv, Limit limit); // "(--limit NAME=... sets another limit)"
 // To be called for each piece of work that a few tokens can ask for many times (a copy of an object
-// of a tree): dies where the time or the memory of the reading is over.
-void check_limits(Converter *cv);
+// of a tree): dies where the time or the memory of the reading is over. work: about how many
+// tokens' worth it is.
+void check_limits(Converter *cv, uint64_t work);
 // What is built from named parts (objects, maps of pigments, ...) may be nested without a brace in
 // the text being nested. Whoever walks it later calls itself for each level.
 enum { MAX_DEPTH = 1000 };

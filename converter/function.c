@@ -185,5 +185,6 @@ int user_function_evaluate(Converter *cv, const UserFunction *user, const double
     int width = function_vector(&pool, user->index, arguments, e, &budget);
     if (budget == 0)
         die_at(&user->loc, "The evaluation of this function has run too long");
+    check_limits(cv, (FUNCTION_BUDGET - budget) / 8 + 1);
     return width;
 }

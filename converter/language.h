@@ -202,7 +202,7 @@ typedef struct Language {
     uint64_t consumed; // tokens given out by next_token
     uint64_t read;     // tokens taken from frames
     uint64_t limits[LIMIT_COUNT];
-    uint64_t work, started; // limits.c
+    uint64_t work, started; // limits.c: work left before the clock is looked at
     size_t max_bytes, stack_room;
     const char *stack_base;
     uint64_t serials;

@@ -66,10 +66,13 @@ static Loc last_loc(Converter *cv) {
     return token_loc(cv, l->last ? l->last : cv->frame->tokens);
 }
 
-void check_limits(Converter *cv) {
+void check_limits(Converter *cv, uint64_t work) {
     Language *l = cv->language;
-    if (++l->work % 1024 != 0)
+    if (l->work > work) {
+        l->work -= work;
         return;
+    }
+    l->work = 1024; // until the next look at the clock
     if (arena_bytes(cv->arena) > l->max_bytes) {
         Loc loc = last_loc(cv);
         die_at(&loc, "The scene needs too much memory: more than %llu MB while it is read %s",
@@ -84,7 +87,7 @@ void check_limits(Converter *cv) {
 
 void count_token(Converter *cv) {
     Language *l = cv->language;
-    check_limits(cv);
+    check_limits(cv, 1);
     if (++l->read <= l->limits[LIMIT_TOKENS])
         return;
     Loc loc;

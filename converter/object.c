@@ -69,7 +69,7 @@ ObjectNode *object_create(Converter *cv, int keyword) {
 }
 
 ObjectNode *object_copy(Converter *cv, const ObjectNode *object) {
-    check_limits(cv);
+    check_limits(cv, 1);
     ObjectNode *copy = arena_copy(cv->arena, object, sizeof *object);
     copy->next = NULL;
     copy->shared = true;

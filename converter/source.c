@@ -13,6 +13,7 @@
 #include <string.h>
 #include <strings.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 // ORDER FileKind
 static const char *const extensions[][16] = {
@@ -74,6 +75,12 @@ static void find_library(Converter *cv) {
     add_given(cv);
 }
 
+// What a scene names is a regular file: a device would never end, a pipe might never begin.
+static bool is_file(const char *path) {
+    struct stat st;
+    return stat(path, &st) == 0 && S_ISREG(st.st_mode) && access(path, R_OK) == 0;
+}
+
 static const char *join(Converter *cv, const char *folder, const char *name) {
     if (!*folder || name[0] == '/')
         return name;
@@ -99,7 +106,7 @@ static const char *find_other_case(Converter *cv, const char *folder, const char
         if (strcasecmp(e->d_name, base) == 0) {
             const char *entry =
                 arena_printf(cv->arena, "%s%s%s", where, slash ? "/" : "", e->d_name);
-            found = file_exists(entry) ? entry : NULL;
+            found = is_file(entry) ? entry : NULL;
         }
     }
     closedir(dir);
@@ -119,7 +126,7 @@ static const char *find_beside(Converter *cv, const char *const *names, int coun
         const Source *source = f->source ? f->source : f->tokens->source;
         for (int i = 0; i < count; i++) {
             const char *path = join(cv, folder_of(cv, source->name), names[i]);
-            if (file_exists(path)) {
+            if (is_file(path)) {
                 note_found(cv, path, "in the folder of the including file");
                 return path;
             }
@@ -153,11 +160,11 @@ const char *source_find(Converter *cv, const char *name, FileKind kind) {
     const char *names[MAX_NAMES];
     int count = candidate_names(cv, name, kind, names);
     for (int i = 0; i < count; i++) {
-        if (file_exists(names[i]))
+        if (kind == FILE_SCENE ? file_exists(names[i]) : is_file(names[i]))
             return names[i];
         for (size_t k = 0; names[i][0] != '/' && k < cv->language->library.count; k++) {
             const char *path = join(cv, cv->language->library.items[k], names[i]);
-            if (file_exists(path))
+            if (is_file(path))
                 return path;
         }
     }
@@ -204,10 +211,19 @@ static const char *followed_link(Converter *cv, const char *path, const char *te
         return NULL;
     const char *name = arena_printf(cv->arena, "%.*s", (int)length, text);
     const char *target = join(cv, folder_of(cv, path), name);
-    if (strcmp(target, path) == 0 || !file_exists(target))
+    if (strcmp(target, path) == 0 || !is_file(target))
         return NULL;
     note_found(cv, target, "the file only names it, as a copied symbolic link does");
     return target;
+}
+
+const Source *source_create(Converter *cv, const char *name, const char *text, size_t size,
+                            FileKind kind) {
+    Source *source = ARENA_NEW(cv->arena, Source);
+    *source = (Source){.name = name, .text = text, .size = size};
+    source->utf8 = kind == FILE_SCENE && size > 0 && (unsigned char)text[0] > 127;
+    list_push(cv, &cv->language->sources, source);
+    return source;
 }
 
 // link: may the file be a copied link? What it leads to is none.
@@ -235,13 +251,7 @@ static const Source *open_file(Converter *cv, const char *name, FileKind kind, b
     const char *target = link ? followed_link(cv, path, text, size) : NULL;
     if (target)
         return open_file(cv, target, kind, false, loc);
-    Source *source = ARENA_NEW(cv->arena, Source);
-    source->name = path;
-    source->text = text;
-    source->size = size;
-    source->utf8 = kind == FILE_SCENE && size > 0 && (unsigned char)text[0] > 127;
-    list_push(cv, &cv->language->sources, source);
-    return source;
+    return source_create(cv, path, text, size, kind);
 }
 
 const Source *source_open(Converter *cv, const char *name, FileKind kind, const Loc *loc) {

@@ -27,8 +27,12 @@ typedef struct {
 } FunctionPool;
 
 // Rounds of loops (sum, prod, octaves) and calls in one evaluation: without a limit a scene could
-// keep a pixel busy for ever. About a second.
+// keep a pixel busy for ever. About a second, and less where all is slower.
+#ifdef HOSTILE
+#define FUNCTION_BUDGET UINT64_C(1000000)
+#else
 #define FUNCTION_BUDGET UINT64_C(50000000)
+#endif
 
 // The value of a formula or pattern, for `parameters` arguments. An evaluation that runs out of its
 // budget is NaN.

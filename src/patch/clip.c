@@ -16,6 +16,13 @@ static inline void project(const double *p, int count, Vec3 e, double shift, dou
         out[k] = e.x * p[k] + e.y * p[count + k] + e.z * p[2 * count + k] - shift;
 }
 
+// Distances times the weights, which are numbers 3 count and on.
+static void project_rational(const double *p, int count, Vec3 e, double shift, double *out) {
+    project(p, count, e, 0.0, out);
+    for (int k = 0; k < count; k++)
+        out[k] -= shift * p[3 * count + k];
+}
+
 void clip_project(const RefineRay *ray, const SubPatch *sub, ClipNet *out) {
     const PatchDef *def = ray->patch->def;
     out->rows = (int)def->degree_u;
@@ -24,7 +31,10 @@ void clip_project(const RefineRay *ray, const SubPatch *sub, ClipNet *out) {
     out->rect = bezier_whole();
     double shift1 = vec_dot(ray->e1, ray->org), shift2 = vec_dot(ray->e2, ray->org);
     int count = (out->rows + 1) * (out->columns + 1);
-    if (count == 16) {
+    if (def->weights) {
+        project_rational(sub->net, count, ray->e1, shift1, out->x);
+        project_rational(sub->net, count, ray->e2, shift2, out->y);
+    } else if (count == 16) {
         project(sub->net, 16, ray->e1, shift1, out->x);
         project(sub->net, 16, ray->e2, shift2, out->y);
     } else {

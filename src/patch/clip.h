@@ -15,9 +15,10 @@
 
 #include "patch/refine.h"
 
-// Control points as the ray sees them, one coordinate after the other; the ray is the origin. The
-// index along which the next clip goes is the first: clips go along both in turn, so the net is
-// turned over each time.
+// Control points as the ray sees them, one coordinate after the other; the ray is the origin. Those
+// of a rational patch are times their weights, so that they are a Bézier function again. The index
+// along which the next clip goes is the first: clips go along both in turn, so the net is turned
+// over each time.
 typedef struct {
     int rows, columns; // degrees along the first and the second index
     bool turned;       // the first index runs along v

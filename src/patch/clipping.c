@@ -38,7 +38,7 @@ static bool clip_down(RefineWalk *walk, const SubPatch *sub, ClipNet *net, int *
         if (!clip_meets(net, ray->error, &size))
             return false;
         // The middle of a box that holds the ray is within half of its diagonal of it.
-        if (size <= ray->tolerance) {
+        if (size <= ray->tolerance * sub->least_weight) {
             report_middle(walk, sub, net->rect);
             return false;
         }

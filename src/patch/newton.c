@@ -75,8 +75,9 @@ static inline double clamp(double x, double low, double high) {
 
 // From the middle of a part of the whole net to a root in that part. A root outside by less than
 // the tolerance counts: (u,v) is held inside, and judged by its distance from the ray.
-static bool iterate(RefineWalk *walk, const ClipNet *whole, BezierRect r, double *u, double *v) {
-    const double tolerance = walk->ray.tolerance;
+static bool iterate(RefineWalk *walk, const SubPatch *sub, const ClipNet *whole, BezierRect r,
+                    double *u, double *v) {
+    const double tolerance = walk->ray.tolerance * sub->least_weight;
     *u = 0.5 * (r.u0 + r.u1);
     *v = 0.5 * (r.v0 + r.v1);
     int outside = 0;
@@ -119,8 +120,9 @@ static void clip_and_iterate(RefineWalk *walk, const SubPatch *sub, const ClipNe
         if (alive && clip_meets(net, ray->error, &size)) {
             BezierRect r = net->rect;
             double u, v;
-            bool point = size <= ray->tolerance || (r.u1 - r.u0 < 0x1p-49 && r.v1 - r.v0 < 0x1p-49);
-            if (iterate(walk, whole, r, &u, &v)) {
+            bool point = size <= ray->tolerance * sub->least_weight ||
+                         (r.u1 - r.u0 < 0x1p-49 && r.v1 - r.v0 < 0x1p-49);
+            if (iterate(walk, sub, whole, r, &u, &v)) {
                 refine_report(walk, sub, u, v);
             } else if (point) {
                 refine_report(walk, sub, 0.5 * (r.u0 + r.u1), 0.5 * (r.v0 + r.v1));
@@ -143,7 +145,7 @@ static void search(RefineWalk *walk, const SubPatch *sub) {
     clip_project(&walk->ray, sub, &whole);
     if (!clip_meets(&whole, walk->ray.error, &size))
         return;
-    if (iterate(walk, &whole, bezier_whole(), &u, &v)) {
+    if (iterate(walk, sub, &whole, bezier_whole(), &u, &v)) {
         refine_report(walk, sub, u, v);
         return;
     }

@@ -37,6 +37,7 @@ const char *patch_isa_name(void); // of the one in use
 typedef struct {
     uint32_t degree_u, degree_v; // 1..16
     const Vec3 *points;          // (degree_u + 1) * (degree_v + 1), row by row; copied
+    const double *weights;       // of the points, > 0 and finite; NULL: all 1 (copied as well)
     uint32_t id;                 // the caller's, comes back in hits
     uint32_t mask;               // a ray meets the patch when (ray mask & mask) != 0
     double tolerance;            // of a hit, scene units; 0: the set's share of the diameter
@@ -73,9 +74,10 @@ typedef struct {
 PatchSetOptions patchset_options_default(void);
 PatchSet *patchset_create(const PatchSetOptions *options);
 void patchset_destroy(PatchSet *set);
-// Points must be finite (the caller has checked). Not after commit.
+// Points must be finite and weights valid (the caller has checked). Not after commit.
 void patchset_add(PatchSet *set, const PatchDef *def);
-// Builds what the method needs, in parallel if it pays. After it the set is read-only and any
+// Builds what the method needs, in parallel if it pays. Dies for a method that has no rational
+// patches (qi-paper, facets, tessellation) when there is one. After it the set is read-only and any
 // number of threads may trace.
 void patchset_commit(PatchSet *set);
 Box patchset_bounds(const PatchSet *set);      // of the control points; empty when there are none

@@ -4,12 +4,14 @@
 
 #include "base/arena.h"
 #include "base/array.h"
+#include "base/diag.h"
 #include "patch/accel.h"
 #include "patch/clipping.h"
 #include "patch/facets.h"
 #include "patch/newton.h"
 #include "patch/paper.h"
 #include "patch/query.h"
+#include "patch/rational.h"
 #include "patch/tessellation.h"
 
 #include <assert.h>
@@ -29,6 +31,7 @@ struct PatchSet {
     bool committed;
     // The method's own, the others are NULL.
     Accel *accel;
+    Rational *rational; // the rational patches of METHOD_QI; accel has the others
     Paper *paper;
     Clipping *clipping;
     Newton *newton;
@@ -93,7 +96,51 @@ void patchset_add(PatchSet *set, const PatchDef *def) {
         own.tolerance = set->options.tolerance_of(set->options.context, box);
     if (!(own.tolerance > 0.0))
         own.tolerance = set->options.tolerance * vec_length(vec_sub(box.high, box.low));
+    if (def->weights) {
+        own.weights = arena_copy(set->arena, def->weights, count * sizeof(double));
+        for (size_t i = 0; i < count; i++)
+            assert(isfinite(own.weights[i]) && own.weights[i] > 0.0);
+    }
     array_push(&set->defs, own);
+}
+
+// Polynomial patches first, else in the order in which they came. Returns how many there are.
+static size_t part_rational(PatchSet *set) {
+    size_t count = set->defs.count, at = 0;
+    PatchDef *parted = ARENA_ARRAY(set->arena, PatchDef, count);
+    for (int rational = 0; rational < 2; rational++) {
+        for (size_t i = 0; i < count; i++) {
+            if ((set->defs.items[i].weights != NULL) == (rational == 1))
+                parted[at++] = set->defs.items[i];
+        }
+    }
+    memcpy(set->defs.items, parted, count * sizeof(PatchDef));
+    size_t polynomial = 0;
+    while (polynomial < count && !set->defs.items[polynomial].weights)
+        polynomial++;
+    return polynomial;
+}
+
+static void commit_qi(PatchSet *set) {
+    bool rational = false;
+    for (size_t i = 0; i < set->defs.count; i++)
+        rational |= set->defs.items[i].weights != NULL;
+    size_t count = set->defs.count, polynomial = rational ? part_rational(set) : count;
+    set->accel = accel_create(set->arena, set->defs.items, polynomial);
+    if (rational)
+        set->rational =
+            rational_create(set->arena, set->defs.items + polynomial, count - polynomial);
+}
+
+static void refuse_rational(const PatchSet *set) {
+    PatchMethod method = set->options.method;
+    if (method != METHOD_QI_PAPER && method != METHOD_FACETS && method != METHOD_TESSELLATION)
+        return;
+    for (size_t i = 0; i < set->defs.count; i++) {
+        if (set->defs.items[i].weights)
+            die("the method %s has no rational patches; qi, clipping and newton have them",
+                method_names[method]);
+    }
 }
 
 void patchset_commit(PatchSet *set) {
@@ -101,9 +148,10 @@ void patchset_commit(PatchSet *set) {
     set->committed = true;
     const PatchDef *defs = set->defs.items;
     size_t count = set->defs.count;
+    refuse_rational(set);
     switch (set->options.method) {
     case METHOD_QI:
-        set->accel = accel_create(set->arena, defs, count);
+        commit_qi(set);
         break;
     case METHOD_QI_PAPER:
         set->paper = paper_create(set->arena, defs, count);
@@ -136,9 +184,11 @@ static void ask(const PatchSet *set, Query *query) {
     assert(set->committed);
     if (!vec_is_finite(query->ray.org) || !vec_is_finite(query->ray.dir))
         return;
-    if (set->accel)
+    if (set->accel) {
         accel_query(set->accel, query);
-    else if (set->paper)
+        if (set->rational && !query_done(query))
+            rational_query(set->rational, query);
+    } else if (set->paper)
         paper_query(set->paper, query);
     else if (set->clipping)
         clipping_query(set->clipping, query);

@@ -408,7 +408,7 @@ static int intersect(const Bezier *patch, const QiQuery *query, QiMode mode, QiS
         stats->steps += q.steps;
         stats->limited += q.steps > q.work_limit;
     }
-    return qi_list_report(&q.list, patch, &q.frame, query->ray.dir, stats, sink, context);
+    return qi_list_report(&q.list, patch, NULL, &q.frame, query->ray.dir, stats, sink, context);
 }
 
 int qi_paper_all(const Bezier *patch, const QiQuery *query, QiStats *stats, QiSink sink,

@@ -68,6 +68,12 @@ bool qi_reduce_nearest(const Bezier *patch, const QiQuery *query, QiStats *stats
 bool qi_paper_any(const Bezier *patch, const QiQuery *query, QiStats *stats);
 bool qi_reduce_any(const Bezier *patch, const QiQuery *query, QiStats *stats);
 
+// The same for a rational patch (rational.h); weights > 0, one a point.
+int qi_rational_all(const Bezier *patch, const double *weights, const QiQuery *query,
+                    QiStats *stats, QiSink sink, void *context);
+bool qi_rational_nearest(const Bezier *patch, const double *weights, const QiQuery *query,
+                         QiStats *stats, QiHit *hit);
+
 // Bound of the rounding in a distance between ray and patch, scene units: a few dozen ulps of the
 // distance from the ray's origin to the farthest control point.
 double qi_rounding(const Bezier *patch, Vec3 org);

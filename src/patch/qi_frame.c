@@ -3,6 +3,7 @@
 #include "patch/qi_frame.h"
 
 #include "patch/quasi.h"
+#include "patch/rational.h"
 
 #include <float.h>
 
@@ -122,7 +123,10 @@ static Vec3 move_points(int exponent, const Bezier *patch, Vec3 org, Bezier *out
     return far;
 }
 
-static void turn_points(QiFrame *f, const Axes *axes, Bezier *s) {
+// times: 1, or 2 for a rational patch. Its points are quotients of two sums of positive terms: each
+// errs by as much as a polynomial's, relative to itself, and 12 + 40 have room for the products
+// with the weights and the quotient.
+static void turn_points(QiFrame *f, const Axes *axes, double times, Bezier *s) {
     Vec3 side = vec3(0.0, 0.0, 0.0), sums = side;
     for (int k = 0; k < bezier_count(s); k++) {
         Vec3 q = s->p[k];
@@ -133,9 +137,9 @@ static void turn_points(QiFrame *f, const Axes *axes, Bezier *s) {
     }
     f->side_x = side.x;
     f->side_y = side.y;
-    f->slack_x = slack_of(s->du, s->dv, sums.x, side.x);
-    f->slack_y = slack_of(s->du, s->dv, sums.y, side.y);
-    f->slack_z = slack_of(s->du, s->dv, sums.z, side.z);
+    f->slack_x = times * slack_of(s->du, s->dv, sums.x, side.x);
+    f->slack_y = times * slack_of(s->du, s->dv, sums.y, side.y);
+    f->slack_z = times * slack_of(s->du, s->dv, sums.z, side.z);
 }
 
 bool qi_frame_init(QiFrame *f, QiFrameKind kind, const Bezier *patch, const QiQuery *query,
@@ -157,7 +161,7 @@ bool qi_frame_init(QiFrame *f, QiFrameKind kind, const Bezier *patch, const QiQu
     Vec3 far = move_points(f->exponent, patch, query->ray.org, out);
     Axes axes =
         kind == FRAME_ACROSS ? axes_across(dir, &f->length) : axes_skew(dir, far, &f->length);
-    turn_points(f, &axes, out);
+    turn_points(f, &axes, kind == FRAME_SKEW_RATIONAL ? 2.0 : 1.0, out);
     // An error of z moves the ray's point by |dir| / length as much.
     f->rounding = sqrt(f->slack_x * f->slack_x + f->slack_y * f->slack_y) +
                   vec_length(dir) / f->length * f->slack_z;
@@ -225,8 +229,8 @@ double qi_list_z_high(const QiList *list, const QiFrame *frame) {
 
 bool qi_list_done(const QiList *list) { return list->mode == QI_ANY && list->count > 0; }
 
-int qi_list_report(QiList *list, const Bezier *patch, const QiFrame *frame, Vec3 dir,
-                   QiStats *stats, QiSink sink, void *context) {
+int qi_list_report(QiList *list, const Bezier *patch, const double *weights, const QiFrame *frame,
+                   Vec3 dir, QiStats *stats, QiSink sink, void *context) {
     for (int i = 1; i < list->count; i++) {
         QiFound found = list->found[i];
         int at = i;
@@ -236,7 +240,8 @@ int qi_list_report(QiList *list, const Bezier *patch, const QiFrame *frame, Vec3
     }
     for (int i = 0; sink && i < list->count; i++) {
         const QiFound *f = &list->found[i];
-        Vec3 normal = bezier_normal(patch, f->u, f->v, vec_neg(dir));
+        Vec3 normal = weights ? rational_normal(patch, weights, f->u, f->v, vec_neg(dir))
+                              : bezier_normal(patch, f->u, f->v, vec_neg(dir));
         QiHit hit = {f->t, f->u, f->v, normal, qi_frame_scene(frame, f->bound)};
         sink(context, &hit);
     }

@@ -9,6 +9,7 @@
 //                 the offset from the ray's point of the same z. No axis gets more from another
 //                 than it has itself, so a patch that is 1e10 times thinner in one axis, met by
 //                 rays of any direction, keeps its digits.
+//   FRAME_SKEW_RATIONAL  the same with room for the rounding of a rational patch's points.
 // Frame units are scene units times a power of two, chosen so that no coordinate exceeds 1 by much:
 // no square over- or underflows, and the change of units is exact.
 #ifndef PATCH_QI_FRAME_H
@@ -16,7 +17,7 @@
 
 #include "patch/qi.h"
 
-typedef enum { FRAME_ACROSS, FRAME_SKEW } QiFrameKind;
+typedef enum { FRAME_ACROSS, FRAME_SKEW, FRAME_SKEW_RATIONAL } QiFrameKind;
 
 typedef struct {
     int exponent;                     // frame units = scene units * 2^exponent
@@ -60,7 +61,7 @@ void qi_list_add(QiList *list, QiFound found);
 double qi_list_z_high(const QiList *list, const QiFrame *frame);
 bool qi_list_done(const QiList *list); // QI_ANY has its hit
 // By increasing t, normals and scene units filled in.
-int qi_list_report(QiList *list, const Bezier *patch, const QiFrame *frame, Vec3 dir,
-                   QiStats *stats, QiSink sink, void *context);
+int qi_list_report(QiList *list, const Bezier *patch, const double *weights, const QiFrame *frame,
+                   Vec3 dir, QiStats *stats, QiSink sink, void *context);
 
 #endif

@@ -146,6 +146,7 @@ static inline double largest(const double *a, int count) {
 static inline void differences(const double *r, int du, int dv, double second[2], double slope[2]) {
     int row = dv + 1;
     double first[LINE], before[LINE], most[LINE], most2[LINE];
+    most[0] = most2[0] = 0.0; // for gcc, which does not know that dv >= 1
     for (int j = 0; j <= dv; j++) {
         before[j] = r[row + j] - r[j];
         most[j] = fabs(before[j]);
@@ -247,6 +248,33 @@ static void narrow(double *low, double *high, Span part) {
     *high = fmax(fmin(from + width * part.high + ulps, to), *low);
 }
 
+// ---- Rational pieces ----
+//
+// Where x = y = 0 the projected x w = y w = 0 as well, and these are Bézier functions: the bounds
+// read parameters off them. Distances and depths are those of the control points themselves, whose
+// hull holds the piece since weights are positive.
+
+// Scales the piece's weights to at most 1, so that the rounding of x w is no more than that of x,
+// and turns z into depths.
+static void scale_rational(QiNet *p, int count) {
+    double scale = 1.0 / largest(p->w, count);
+    for (int k = 0; k < count; k++) {
+        p->x[k] *= scale;
+        p->y[k] *= scale;
+        p->z[k] /= p->w[k];
+        p->w[k] *= scale;
+    }
+}
+
+static bool within_rational(const QiNet *p, int count, double radius) {
+    for (int k = 0; k < count; k++) {
+        double x = p->x[k] / p->w[k], y = p->y[k] / p->w[k];
+        if (!(x * x + y * y <= radius * radius))
+            return false;
+    }
+    return true;
+}
+
 // ---- One step ----
 
 typedef enum { STEP_DONE, STEP_AGAIN, STEP_HALVE } Step;
@@ -335,6 +363,11 @@ static inline bool reduce_piece(Search *q, int du, int dv, Piece *p) {
     restriction(wv, 1, dv + 1, dv, r.v0, r.v1);
     restrict_axis(target->whole.x, wu, wv, du, dv, p->net.x);
     restrict_axis(target->whole.y, wu, wv, du, dv, p->net.y);
+    if (target->rational) {
+        restrict_axis(target->whole.z, wu, wv, du, dv, p->net.z);
+        restrict_axis(target->whole.w, wu, wv, du, dv, p->net.w);
+        scale_rational(&p->net, (du + 1) * (dv + 1));
+    }
     p->regular = choose_forms(target, trend_u(p->net.x, du, dv), trend_u(p->net.y, du, dv),
                               trend_v(p->net.x, du, dv), trend_v(p->net.y, du, dv), p->forms);
 
@@ -347,7 +380,8 @@ static inline bool reduce_piece(Search *q, int du, int dv, Piece *p) {
             !clip(f.av, f.au, p->bounds[k].span, p->u, &p->v))
             return false;
     }
-    restrict_axis(target->whole.z, wu, wv, du, dv, p->net.z);
+    if (!target->rational)
+        restrict_axis(target->whole.z, wu, wv, du, dv, p->net.z);
     Span depth = span_of(p->net.z, (du + 1) * (dv + 1));
     if (depth.high + target->frame.slack_z < target->frame.z_low ||
         depth.low - target->frame.slack_z > qi_list_z_high(&target->list, &target->frame))
@@ -384,8 +418,9 @@ static inline bool finish_singular(Search *q, int count, const Piece *p, bool le
         weak_form(&p->net, count, f[1], 16.0 * form_slack(f[1], frame)) &&
         qi_root_settle_curve(&q->target, p->left, f[0], form_slack(f[0], frame)))
         return true;
-    return (least || within(&p->net, count, frame->tolerance)) &&
-           (qi_root_settle(&q->target, p->left) || least);
+    bool near = q->target.rational ? within_rational(&p->net, count, frame->tolerance)
+                                   : within(&p->net, count, frame->tolerance);
+    return (least || near) && (qi_root_settle(&q->target, p->left) || least);
 }
 
 static inline Step step_of(Search *q, BezierRect rect, int du, int dv, Rest *rest) {
@@ -464,11 +499,12 @@ static void search(Search *q, BezierRect rect) {
     }
 }
 
-static int intersect(const Bezier *patch, const QiQuery *query, QiMode mode, QiStats *stats,
-                     QiSink sink, void *context) {
+static int intersect(const Bezier *patch, const double *weights, const QiQuery *query, QiMode mode,
+                     QiStats *stats, QiSink sink, void *context) {
     QiFound found[QI_MAX_HITS];
     Search q;
-    if (!qi_target_init(&q.target, patch, query, mode, found, mode == QI_ALL ? QI_MAX_HITS : 1))
+    if (!qi_target_init(&q.target, patch, weights, query, mode, found,
+                        mode == QI_ALL ? QI_MAX_HITS : 1))
         return 0;
     q.steps = 0;
     q.work_limit = (uint64_t)qi_work_limit(patch);
@@ -478,21 +514,31 @@ static int intersect(const Bezier *patch, const QiQuery *query, QiMode mode, QiS
         stats->newton += q.target.newton;
         stats->limited += q.steps > q.work_limit;
     }
-    return qi_list_report(&q.target.list, patch, &q.target.frame, query->ray.dir, stats, sink,
-                          context);
+    return qi_list_report(&q.target.list, patch, weights, &q.target.frame, query->ray.dir, stats,
+                          sink, context);
 }
 
 int qi_reduce_all(const Bezier *patch, const QiQuery *query, QiStats *stats, QiSink sink,
                   void *context) {
-    return intersect(patch, query, QI_ALL, stats, sink, context);
+    return intersect(patch, NULL, query, QI_ALL, stats, sink, context);
 }
 
 static void take_hit(void *context, const QiHit *hit) { *(QiHit *)context = *hit; }
 
 bool qi_reduce_nearest(const Bezier *patch, const QiQuery *query, QiStats *stats, QiHit *hit) {
-    return intersect(patch, query, QI_NEAREST, stats, take_hit, hit) > 0;
+    return intersect(patch, NULL, query, QI_NEAREST, stats, take_hit, hit) > 0;
 }
 
 bool qi_reduce_any(const Bezier *patch, const QiQuery *query, QiStats *stats) {
-    return intersect(patch, query, QI_ANY, stats, NULL, NULL) > 0;
+    return intersect(patch, NULL, query, QI_ANY, stats, NULL, NULL) > 0;
+}
+
+int qi_rational_all(const Bezier *patch, const double *weights, const QiQuery *query,
+                    QiStats *stats, QiSink sink, void *context) {
+    return intersect(patch, weights, query, QI_ALL, stats, sink, context);
+}
+
+bool qi_rational_nearest(const Bezier *patch, const double *weights, const QiQuery *query,
+                         QiStats *stats, QiHit *hit) {
+    return intersect(patch, weights, query, QI_NEAREST, stats, take_hit, hit) > 0;
 }

@@ -3,6 +3,7 @@
 #include "patch/qi_root.h"
 
 #include <float.h>
+#include <stddef.h>
 
 enum { LINE = BEZIER_MAX_DEGREE + 1 };
 
@@ -10,8 +11,8 @@ typedef struct {
     double x, y, z, xu, yu, xv, yv;
 } Point;
 
-// Bernstein weights and their derivatives at t.
-static inline void weights(int d, double t, double *value, double *slope) {
+// Bernstein polynomials and their derivatives at t.
+static inline void basis(int d, double t, double *value, double *slope) {
     double low[LINE] = {1.0};
     for (int m = 1; m < d; m++) {
         low[m] = 0.0;
@@ -28,8 +29,8 @@ static inline void weights(int d, double t, double *value, double *slope) {
 
 static inline Point eval_net(const QiNet *n, int du, int dv, double u, double v) {
     double wu[LINE], su[LINE], wv[LINE], sv[LINE];
-    weights(du, u, wu, su);
-    weights(dv, v, wv, sv);
+    basis(du, u, wu, su);
+    basis(dv, v, wv, sv);
     Point p = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
     for (int i = 0; i <= du; i++) {
         const double *x = n->x + i * (dv + 1), *y = n->y + i * (dv + 1), *z = n->z + i * (dv + 1);
@@ -52,7 +53,25 @@ static inline Point eval_net(const QiNet *n, int du, int dv, double u, double v)
     return p;
 }
 
+// All divided by the weight: x, y and z are the point's, the derivatives those of (x w, y w) / w.
+// Newton's step towards x w = y w = 0 is the same with or without that factor.
+static Point eval_rational(const QiTarget *q, double u, double v) {
+    double wu[LINE], wv[LINE], slope[LINE], sum = 0.0;
+    basis(q->du, u, wu, slope);
+    basis(q->dv, v, wv, slope);
+    for (int i = 0; i <= q->du; i++) {
+        double row = 0.0;
+        for (int j = 0; j <= q->dv; j++)
+            row += q->whole.w[i * (q->dv + 1) + j] * wv[j];
+        sum += row * wu[i];
+    }
+    Point p = eval_net(&q->whole, q->du, q->dv, u, v);
+    return (Point){p.x / sum, p.y / sum, p.z / sum, p.xu / sum, p.yu / sum, p.xv / sum, p.yv / sum};
+}
+
 static Point eval(const QiTarget *q, double u, double v) {
+    if (q->rational)
+        return eval_rational(q, u, v);
     if (q->du == 3 && q->dv == 3)
         return eval_net(&q->whole, 3, 3, u, v);
     return eval_net(&q->whole, q->du, q->dv, u, v);
@@ -247,17 +266,27 @@ static double weight_of(double side, double slack) {
     return size > DBL_MIN ? 1.0 / size : 1.0;
 }
 
-bool qi_target_init(QiTarget *q, const Bezier *patch, const QiQuery *query, QiMode mode,
-                    QiFound *found, int capacity) {
+bool qi_target_init(QiTarget *q, const Bezier *patch, const double *weights, const QiQuery *query,
+                    QiMode mode, QiFound *found, int capacity) {
     Bezier framed;
-    if (!qi_frame_init(&q->frame, FRAME_SKEW, patch, query, &framed))
+    if (!qi_frame_init(&q->frame, weights ? FRAME_SKEW_RATIONAL : FRAME_SKEW, patch, query,
+                       &framed))
         return false;
     q->du = patch->du;
     q->dv = patch->dv;
+    q->rational = weights != NULL;
+    int exponent = 0;
+    double most = 0.0;
+    for (int k = 0; q->rational && k < bezier_count(patch); k++)
+        most = fmax(most, weights[k]);
+    frexp(most, &exponent);
     for (int k = 0; k < bezier_count(patch); k++) {
-        q->whole.x[k] = framed.p[k].x;
-        q->whole.y[k] = framed.p[k].y;
-        q->whole.z[k] = framed.p[k].z;
+        double w = q->rational ? ldexp(weights[k], -exponent) : 1.0;
+        q->whole.x[k] = framed.p[k].x * w;
+        q->whole.y[k] = framed.p[k].y * w;
+        q->whole.z[k] = framed.p[k].z * w;
+        if (q->rational)
+            q->whole.w[k] = w;
     }
     q->weight_x = weight_of(q->frame.side_x, q->frame.slack_x);
     q->weight_y = weight_of(q->frame.side_y, q->frame.slack_y);

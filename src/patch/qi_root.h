@@ -7,8 +7,9 @@
 #include "patch/qi_frame.h"
 
 // A patch in the ray's frame, coordinate by coordinate; index i * (dv + 1) + j.
+// Of a rational patch: the coordinates times the weights, and the weights w.
 typedef struct {
-    double x[BEZIER_MAX_POINTS], y[BEZIER_MAX_POINTS], z[BEZIER_MAX_POINTS];
+    double x[BEZIER_MAX_POINTS], y[BEZIER_MAX_POINTS], z[BEZIER_MAX_POINTS], w[BEZIER_MAX_POINTS];
 } QiNet;
 
 // A patch, a ray, and what was found so far.
@@ -16,6 +17,7 @@ typedef struct {
     QiFrame frame;
     QiList list;
     int du, dv;
+    bool rational;
     QiNet whole;
     double weight_x, weight_y; // bring x and y to size 1, unless they are rounding and no more
     uint64_t newton;           // points evaluated on the way to a root
@@ -28,8 +30,9 @@ typedef struct {
 } QiForm;
 
 // Fills the target; found holds `capacity` hits. False as qi_frame_init().
-bool qi_target_init(QiTarget *target, const Bezier *patch, const QiQuery *query, QiMode mode,
-                    QiFound *found, int capacity);
+// weights: of a rational patch, else NULL.
+bool qi_target_init(QiTarget *target, const Bezier *patch, const double *weights,
+                    const QiQuery *query, QiMode mode, QiFound *found, int capacity);
 
 // Distance of S(u,v) from the ray as the weights measure it.
 double qi_root_off(const QiTarget *target, double u, double v);

@@ -5,19 +5,29 @@
 #include "base/array.h"
 #include "patch/bernstein.h"
 #include "patch/quasi.h"
+#include "patch/rational.h"
 
 #include <string.h>
 
 enum {
-    MAX_DEPTH = 16,       // halvings of a patch
-    SUBS_IN_ALL = 1 << 20 // 600 MB; many patches are cut more coarsely
+    MAX_DEPTH = 16,        // halvings of a patch
+    MAX_WEIGHT_DEPTH = 64, // of a rational patch, towards ends where weights grow
+    SUBS_IN_ALL = 1 << 20  // 600 MB; many patches are cut more coarsely
 };
 
 typedef struct {
     BezierRect rect;
     Box box;
     size_t net; // in the list of numbers
+    double least_weight;
 } Cut;
+
+// A piece of a patch: its points, and its weights if it is rational.
+typedef struct {
+    Bezier s;
+    bool rational;
+    double w[BEZIER_MAX_POINTS];
+} Piece;
 
 typedef struct {
     const RefinePatch *patch;
@@ -26,6 +36,10 @@ typedef struct {
     ARRAY(Cut) cuts;
     ARRAY(double) numbers;
 } Cutter;
+
+// A rational point is a quotient of two sums of positive terms, with products and a quotient more
+// than a polynomial's (qi_frame.c has the same factor).
+static const double RATIONAL_ROUNDING = 2.0;
 
 // ---- Cutting
 
@@ -78,8 +92,15 @@ static double thickness(const Bezier *s, double *size) {
 
 // The box of a sub-patch: of its control net, or where that is tighter of its QI net +- its bound.
 // Halving MAX_DEPTH times adds less than 7 bezier_rounding().
-static Box box_of(const Bezier *s, double rounding, Vec3 center) {
+static Box box_of(const Piece *p, double rounding, Vec3 center) {
+    const Bezier *s = &p->s;
     Bezier net;
+    if (p->rational) {
+        Box box = bezier_bounds(s);
+        Vec3 slack = vec3(8.0 * rounding, 8.0 * rounding, 8.0 * rounding);
+        return (Box){vec_add(vec_sub(box.low, slack), center),
+                     vec_add(vec_add(box.high, slack), center)};
+    }
     quasi_net(s, &net);
     double error = 8.0 * rounding;
     Vec3 slack = vec3(error, error, error), e = vec_add(quasi_deviation_axes(s), slack);
@@ -88,46 +109,110 @@ static Box box_of(const Bezier *s, double rounding, Vec3 center) {
                  vec_add(vec_min(vec_add(hull.high, slack), vec_add(thick.high, e)), center)};
 }
 
-static void keep(Cutter *k, const Bezier *s, BezierRect rect) {
-    Cut cut = {rect, box_of(s, k->rounding, k->patch->center), k->numbers.count};
-    for (int axis = 0; axis < 3; axis++) {
-        for (int i = 0; i < bezier_count(s); i++)
-            array_push(&k->numbers, vec_get(s->p[i], axis));
+static void weight_range(const Piece *p, double *least, double *most) {
+    *least = *most = p->rational ? p->w[0] : 1.0;
+    for (int i = 1; p->rational && i < bezier_count(&p->s); i++) {
+        *least = fmin(*least, p->w[i]);
+        *most = fmax(*most, p->w[i]);
     }
+}
+
+static void keep(Cutter *k, const Piece *p, BezierRect rect) {
+    const Bezier *s = &p->s;
+    double least, most;
+    weight_range(p, &least, &most);
+    Cut cut = {rect, box_of(p, k->rounding, k->patch->center), k->numbers.count, least / most};
+    int count = bezier_count(s);
+    for (int axis = 0; axis < 3; axis++) {
+        for (int i = 0; i < count; i++)
+            array_push(&k->numbers, vec_get(s->p[i], axis) * (p->rational ? p->w[i] / most : 1.0));
+    }
+    for (int i = 0; p->rational && i < count; i++)
+        array_push(&k->numbers, p->w[i] / most);
     array_push(&k->cuts, cut);
 }
 
-static void cut_rect(Cutter *k, const Bezier *s, BezierRect rect, int depth) {
-    double size, thick = thickness(s, &size);
+// Halves by blossoms of x w, y w, z w and w: the points of the halves are means of the points with
+// positive weights again.
+static void halve(const Piece *p, bool across_u, Piece *low, Piece *high) {
+    int count = bezier_count(&p->s);
+    Bezier times = p->s, w = p->s;
+    low->rational = high->rational = p->rational;
+    for (int i = 0; p->rational && i < count; i++) {
+        times.p[i] = vec_scale(p->s.p[i], p->w[i]);
+        w.p[i] = vec3(p->w[i], 0.0, 0.0);
+    }
+    (across_u ? bezier_split_u : bezier_split_v)(&times, 0.5, &low->s, &high->s);
+    if (!p->rational)
+        return;
+    Bezier w_low, w_high;
+    (across_u ? bezier_split_u : bezier_split_v)(&w, 0.5, &w_low, &w_high);
+    for (int i = 0; i < count; i++) {
+        low->w[i] = w_low.p[i].x;
+        high->w[i] = w_high.p[i].x;
+        low->s.p[i] = vec_scale(low->s.p[i], 1.0 / low->w[i]);
+        high->s.p[i] = vec_scale(high->s.p[i], 1.0 / high->w[i]);
+    }
+}
+
+// Flat, and with weights alike.
+static bool fine_enough(const Cutter *k, const Piece *p, int depth) {
+    double size, thick = thickness(&p->s, &size), least, most;
     // Near a collapsed edge pieces stay wide for their length however often they are cut.
     size = fmax(size, k->size / 16.0);
-    if (thick <= fmax(k->share * size, 20.0 * k->rounding) || depth == MAX_DEPTH ||
-        k->cuts.count > k->limit) {
-        keep(k, s, rect);
+    weight_range(p, &least, &most);
+    bool flat = thick <= fmax(k->share * size, 20.0 * k->rounding) || depth >= MAX_DEPTH;
+    bool alike = most <= 4.0 * least || depth >= MAX_WEIGHT_DEPTH;
+    return flat && alike;
+}
+
+// Across the direction in which the weights differ most, where they differ much.
+static bool cut_weights_across_u(const Piece *p) {
+    int row = p->s.dv + 1;
+    double u = 1.0, v = 1.0;
+    for (int i = 0; i <= p->s.du; i++) {
+        for (int j = 0; j <= p->s.dv; j++) {
+            double w = p->w[i * row + j];
+            if (i > 0)
+                u = fmax(u, fmax(w / p->w[(i - 1) * row + j], p->w[(i - 1) * row + j] / w));
+            if (j > 0)
+                v = fmax(v, fmax(w / p->w[i * row + j - 1], p->w[i * row + j - 1] / w));
+        }
+    }
+    return u >= v;
+}
+
+static void cut_rect(Cutter *k, const Piece *p, BezierRect rect, int depth) {
+    if (fine_enough(k, p, depth) || k->cuts.count > k->limit) {
+        keep(k, p, rect);
         return;
     }
-    Bezier low, high;
+    double least, most;
+    weight_range(p, &least, &most);
+    bool across_u = most > 4.0 * least ? cut_weights_across_u(p) : cut_across_u(&p->s);
+    Piece low, high;
     BezierRect a = rect, b = rect;
-    if (cut_across_u(s)) {
+    if (across_u)
         a.u1 = b.u0 = 0.5 * (rect.u0 + rect.u1);
-        bezier_split_u(s, 0.5, &low, &high);
-    } else {
+    else
         a.v1 = b.v0 = 0.5 * (rect.v0 + rect.v1);
-        bezier_split_v(s, 0.5, &low, &high);
-    }
+    halve(p, across_u, &low, &high);
     cut_rect(k, &low, a, depth + 1);
     cut_rect(k, &high, b, depth + 1);
 }
 
 static void cut_patch(Cutter *k) {
     const PatchDef *def = k->patch->def;
-    Bezier whole;
-    whole.du = (int)def->degree_u;
-    whole.dv = (int)def->degree_v;
-    for (int i = 0; i < bezier_count(&whole); i++)
-        whole.p[i] = vec_sub(def->points[i], k->patch->center);
-    k->rounding = bezier_rounding(&whole);
-    k->size = bezier_diameter(&whole);
+    Piece whole = {.rational = def->weights != NULL};
+    whole.s.du = (int)def->degree_u;
+    whole.s.dv = (int)def->degree_v;
+    for (int i = 0; i < bezier_count(&whole.s); i++) {
+        whole.s.p[i] = vec_sub(def->points[i], k->patch->center);
+        if (whole.rational)
+            whole.w[i] = def->weights[i];
+    }
+    k->rounding = (whole.rational ? RATIONAL_ROUNDING : 1.0) * bezier_rounding(&whole.s);
+    k->size = bezier_diameter(&whole.s);
     cut_rect(k, &whole, bezier_whole(), 0);
     while (k->cuts.count > k->limit) {
         k->cuts.count = k->numbers.count = 0;
@@ -147,7 +232,7 @@ static RefinePatch make_patch(const PatchDef *def) {
         whole.p[i] = vec_sub(whole.p[i], patch.center);
     // Cutting, and then a value of S from the sub-patch's net: 8 for the first, at most one more
     // for the second by the same count.
-    patch.rounding = 9.0 * bezier_rounding(&whole);
+    patch.rounding = 9.0 * (def->weights ? RATIONAL_ROUNDING : 1.0) * bezier_rounding(&whole);
     return patch;
 }
 
@@ -172,7 +257,8 @@ void refine_build(Arena *arena, const PatchDef *defs, size_t count, double share
             arena_copy(arena, k->numbers.items, k->numbers.count * sizeof(double));
         for (size_t c = 0; c < k->cuts.count; c++) {
             const Cut *cut = &k->cuts.items[c];
-            array_push(&subs, ((SubPatch){(uint32_t)i, cut->rect, numbers + cut->net}));
+            array_push(&subs,
+                       ((SubPatch){(uint32_t)i, cut->rect, numbers + cut->net, cut->least_weight}));
             array_push(&boxes, cut->box);
         }
         array_free(&k->cuts);
@@ -259,6 +345,27 @@ void refine_query(const Refined *refined, Query *query, RefineSearch search) {
 // ---- Hits
 
 // S, dS/du and dS/dv by the sub-patch's own parameters.
+static void eval_rational(const double *p, int du, int dv, double u, double v, Vec3 out[3]) {
+    double wu[BEZIER_MAX_DEGREE + 1], wv[BEZIER_MAX_DEGREE + 1];
+    double su[BEZIER_MAX_DEGREE + 1], sv[BEZIER_MAX_DEGREE + 1], result[3][4] = {{0.0}};
+    bernstein(du, u, wu, su);
+    bernstein(dv, v, wv, sv);
+    for (int c = 0; c < 4; c++) {
+        for (int i = 0; i <= du; i++, p += dv + 1) {
+            for (int j = 0; j <= dv; j++) {
+                result[0][c] += wu[i] * wv[j] * p[j];
+                result[1][c] += su[i] * wv[j] * p[j];
+                result[2][c] += wu[i] * sv[j] * p[j];
+            }
+        }
+    }
+    double unit = 1.0 / result[0][3];
+    for (int k = 0; k < 3; k++) {
+        Vec3 n = vec3(result[k][0], result[k][1], result[k][2]);
+        out[k] = vec_scale(k ? vec_madd(n, -result[k][3], out[0]) : n, unit);
+    }
+}
+
 static inline void eval_net(const double *p, int du, int dv, double u, double v, Vec3 out[3]) {
     double wu[BEZIER_MAX_DEGREE + 1], wv[BEZIER_MAX_DEGREE + 1];
     double su[BEZIER_MAX_DEGREE + 1], sv[BEZIER_MAX_DEGREE + 1], result[3][3] = {{0.0}};
@@ -281,7 +388,9 @@ static inline void eval_net(const double *p, int du, int dv, double u, double v,
 }
 
 static void eval_sub(const PatchDef *def, const SubPatch *sub, double u, double v, Vec3 out[3]) {
-    if (def->degree_u == 3 && def->degree_v == 3)
+    if (def->weights)
+        eval_rational(sub->net, (int)def->degree_u, (int)def->degree_v, u, v, out);
+    else if (def->degree_u == 3 && def->degree_v == 3)
         eval_net(sub->net, 3, 3, u, v, out); // a copy with loops of known length
     else
         eval_net(sub->net, (int)def->degree_u, (int)def->degree_v, u, v, out);
@@ -291,11 +400,18 @@ static void eval_sub(const PatchDef *def, const SubPatch *sub, double u, double 
 static Vec3 normal_limit(const PatchDef *def, double u, double v, Vec3 facing) {
     Bezier whole;
     bezier_init(&whole, (int)def->degree_u, (int)def->degree_v, def->points);
+    if (def->weights)
+        return rational_normal(&whole, def->weights, u, v, facing);
     return bezier_normal(&whole, u, v, facing);
 }
 
-// Was this root reported before? Two values for one root differ by the bounds over the slopes.
-static bool seen_before(RefineWalk *walk, const PatchHit *hit, double slope_u, double slope_v) {
+// Was this root reported before? Two values for one root differ by the bounds over the slopes,
+// as the ray sees them: along a ray near the tangent plane little is certain. at: S and its
+// derivatives by the patch's parameters.
+static bool seen_before(RefineWalk *walk, const PatchHit *hit, const Vec3 at[3]) {
+    double steep = fabs(vec_dot(vec_cross(at[1], at[2]), walk->dir));
+    double slope_u = steep / vec_length(vec_cross(walk->dir, at[2]));
+    double slope_v = steep / vec_length(vec_cross(at[1], walk->dir));
     double reach = 2.0 * (hit->bound + walk->ray.tolerance);
     double t = hit->t, reach_t = reach * walk->ray.t_per_s;
     double reach_u = reach / slope_u, reach_v = reach / slope_v;
@@ -307,14 +423,14 @@ static bool seen_before(RefineWalk *walk, const PatchHit *hit, double slope_u, d
             fabs(walk->seen[i].v - hit->v) <= walk->seen[i].reach_v + reach_v)
             return true;
     }
-    uint64_t at = walk->seen_count++ % REFINE_SEEN;
-    walk->seen[at].patch = walk->patch;
-    walk->seen[at].t = t;
-    walk->seen[at].u = hit->u;
-    walk->seen[at].v = hit->v;
-    walk->seen[at].reach_t = reach_t;
-    walk->seen[at].reach_u = reach_u;
-    walk->seen[at].reach_v = reach_v;
+    uint64_t next = walk->seen_count++ % REFINE_SEEN;
+    walk->seen[next].patch = walk->patch;
+    walk->seen[next].t = t;
+    walk->seen[next].u = hit->u;
+    walk->seen[next].v = hit->v;
+    walk->seen[next].reach_t = reach_t;
+    walk->seen[next].reach_u = reach_u;
+    walk->seen[next].reach_v = reach_v;
     return false;
 }
 
@@ -340,13 +456,26 @@ void refine_report(RefineWalk *walk, const SubPatch *sub, double u, double v) {
     bool certain = area > 1e6 * 64.0 * ray->patch->rounding * (lu + lv);
     hit.normal =
         certain ? vec_scale(n, 1.0 / area) : normal_limit(def, hit.u, hit.v, vec_neg(ray->dir));
+    at[1] = vec_scale(at[1], 1.0 / width);
+    at[2] = vec_scale(at[2], 1.0 / height);
+    // Two roundings of each parameter. Weights that differ by powers of ten make that count.
+    hit.bound += 0x1p-52 * (vec_length(at[1]) + vec_length(at[2]));
+    if (query->kind != QUERY_ALL || !seen_before(walk, &hit, at))
+        query_take(query, &hit);
+}
+
+void refine_take(RefineWalk *walk, const PatchHit *hit) {
+    Query *query = walk->query;
+    if (!(hit->t >= query->t_min && hit->t < query->t_max))
+        return;
     if (query->kind == QUERY_ALL) {
-        // The slopes as the ray sees them: along a ray near the tangent plane little is certain.
-        double steep = fabs(vec_dot(n, ray->dir));
-        double seen_u = steep / vec_length(vec_cross(ray->dir, at[2])) / width;
-        double seen_v = steep / vec_length(vec_cross(at[1], ray->dir)) / height;
-        if (seen_before(walk, &hit, seen_u, seen_v))
+        const PatchDef *def = walk->ray.patch->def;
+        Bezier whole;
+        Vec3 at[3];
+        bezier_init(&whole, (int)def->degree_u, (int)def->degree_v, def->points);
+        rational_eval(&whole, def->weights, hit->u, hit->v, at);
+        if (seen_before(walk, hit, at))
             return;
     }
-    query_take(query, &hit);
+    query_take(query, hit);
 }

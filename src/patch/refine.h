@@ -25,7 +25,10 @@ typedef struct {
 typedef struct {
     uint32_t patch;
     BezierRect rect;
-    const double *net; // coordinate by coordinate, each row by row: x.. y.. z..
+    // Coordinate by coordinate, each row by row: x.. y.. z..; of a rational patch times the
+    // weights, and then the weights, the largest of them 1.
+    const double *net;
+    double least_weight; // 1 for a polynomial patch
 } SubPatch;
 
 typedef struct {
@@ -73,5 +76,8 @@ void refine_query(const Refined *refined, Query *query, RefineSearch search);
 // S(u,v) of the sub-patch (u and v its own, in [0,1]) is within the tolerance of the ray: reports
 // it with its true bound, if its t is in range and it was not reported before.
 void refine_report(RefineWalk *walk, const SubPatch *sub, double u, double v);
+
+// A hit found otherwise; u and v are the patch's own.
+void refine_take(RefineWalk *walk, const PatchHit *hit);
 
 #endif

@@ -59,7 +59,7 @@ static void footprints(void **state) {
                      .direction = {0, 0, 1},
                      .right = {4.0 / 3.0, 0, 0},
                      .up = {0, 1, 0}};
-    CameraView view = camera_view(&camera, 400, 300);
+    CameraView view = camera_view(&camera, NULL, 400, 300);
     Footprint f = footprint_create(&view, 0.5);
     for (double z = 10; z < 1e6; z *= 10) {
         Box box = {{-z, -z, z}, {z, z, 3 * z}};
@@ -74,7 +74,7 @@ static void footprints(void **state) {
     assert_true(footprint_tolerance(&f, around) == 0.0);
 
     camera.type = CAMERA_ORTHOGRAPHIC;
-    view = camera_view(&camera, 400, 300);
+    view = camera_view(&camera, NULL, 400, 300);
     f = footprint_create(&view, 0.5);
     Box near = {{-9, -9, 1}, {9, 9, 2}}, far = {{-9, -9, 1e6}, {9, 9, 1e6 + 1}};
     assert_true(fabs(footprint_tolerance(&f, near) - 0.5 / 300.0) < 1e-9);

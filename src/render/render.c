@@ -222,7 +222,9 @@ static PatchSetOptions patch_options(const Scene *scene, const RenderOptions *o,
                                      Footprint *footprint) {
     PatchSetOptions patches = patchset_options_default();
     if (o->pixels > 0.0) {
-        CameraView view = camera_view(&scene->camera, o->width, o->height);
+        Camera smooth = scene->camera;
+        smooth.has_normal = false; // what bends its rays does not change how fine the picture is
+        CameraView view = camera_view(&smooth, NULL, o->width, o->height);
         *footprint = footprint_create(&view, o->pixels);
         patches.tolerance_of = footprint_tolerance;
         patches.context = footprint;

@@ -138,7 +138,7 @@ Color story_of_pixel(const Scene *scene, const Shading *shading, int width, int 
     Story story = {out, scene, patch_of, (int)count};
     Tracer *tracer = tracer_create(shading);
     tracer->story = &story;
-    const CameraView view = camera_view(&scene->camera, &shading->textures, width, height);
+    const CameraView view = camera_view(&scene->camera, shading->textures, width, height);
     Color color = {.transmit = 1.0f};
     Ray ray;
     fprintf(out, "pixel (%d, %d) of %d x %d, through its middle\n", x, y, width, height);

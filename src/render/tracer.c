@@ -134,7 +134,7 @@ void shading_destroy(Shading *shading) {
     arena_destroy(shading->arena);
 }
 
-const Textures *shading_textures(const Shading *shading) { return &shading->textures; }
+const Textures *shading_textures(const Shading *shading) { return shading->textures; }
 
 Tracer *tracer_create(const Shading *shading) {
     Arena *arena = arena_create();

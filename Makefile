@@ -52,7 +52,7 @@ TEST_OBJ = $(LIB_C:%.c=build/test/%.o) $(KERNEL_TEST)
 IMAGE_LIB = libqipov_image.so
 SHARED   = build/test/libtests.a
 
-all: $(PROGRAMS:%=build/%) build/$(IMAGE_LIB)
+all: $(PROGRAMS:%=build/%) build/$(IMAGE_LIB) build/libqipatch.a
 
 $(KERNEL_OBJ): build/src/kernel/kernel_%.o: $(KERNEL)
 	@mkdir -p $(@D)
@@ -97,6 +97,14 @@ EMBREE = $(if $(wildcard /usr/include/embree3/rtcore.h),-lembree3)
 build/bench_rays: tests/bench_rays.c $(OBJ)
 	@echo '  LD  $@'
 	@$(CC) $(C11) $(CFLAGS) $(if $(EMBREE),-DWITH_EMBREE) -o $@ $^ $(EMBREE) $(LIBS)
+
+# One object of all that the library needs, in which only the public names are visible.
+build/libqipatch.a: $(filter build/src/patch/% build/src/kernel/% build/src/base/%,$(OBJ))
+	@echo '  AR  $@'
+	@ld -r -o build/qipatch.o $^
+	@objcopy -w --keep-global-symbol='qipatch_*' build/qipatch.o
+	@rm -f $@
+	@ar rcs $@ build/qipatch.o
 
 # The programs under the sanitizers, for tests that run them; and the cmocka programs.
 build/test/pov2qi: build/test/converter/main.o $(TEST_OBJ) | build/test/$(IMAGE_LIB)

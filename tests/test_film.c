@@ -244,11 +244,65 @@ static void odd_colors_are_clipped(void **state) {
     }
 }
 
+// The table must say what the curves say, also for the floats around each step.
+static void tables_change_nothing(void **state) {
+    (void)state;
+    const Settings spaces[] = {{.gamma_mode = GAMMA_POWER, .assumed_gamma = 1.0f},
+                               {.gamma_mode = GAMMA_POWER, .assumed_gamma = 2.2f},
+                               {.gamma_mode = GAMMA_SRGB},
+                               {.gamma_mode = GAMMA_NONE}};
+    const double gammas[] = {0, 1, 2.2, 0.5};
+    Rng rng = {7};
+    Arena *arena = arena_create();
+    for (size_t i = 0; i < sizeof spaces / sizeof *spaces; i++) {
+        for (size_t j = 0; j < sizeof gammas / sizeof *gammas; j++) {
+            int bits = 8 - (int)((i + j) % 4) * 2;
+            Film film = film_create(&spaces[i], IMAGE_PNG, bits, false, false, gammas[j]);
+            Film quick = film;
+            film_prepare(&quick, arena);
+            assert_non_null(quick.table);
+            float x = 0.0f;
+            for (int k = 0; k < 200000; k++) {
+                // In the first half neighbours, a thousand at a time.
+                x = k % 1000 ? nextafterf(x, 2.0f) : (float)rng_range(&rng, -0.01, 1.01);
+                if (k >= 100000)
+                    x = (float)pow(10, rng_range(&rng, -6, 0.1));
+                float want[4], got[4];
+                film_develop(&film, (Color){x, x, -x, 0, 0}, want);
+                film_develop(&quick, (Color){x, x, -x, 0, 0}, got);
+                assert_memory_equal(want, got, 3 * sizeof *want);
+            }
+            for (int k = 1; k < 1 << bits; k++) { // around the steps
+                uint32_t low = 0, high = 0x3f800000;
+                while (low + 1 < high) {
+                    uint32_t middle = (low + high) / 2;
+                    float v[4];
+                    memcpy(&x, &middle, sizeof x);
+                    film_develop(&film, (Color){x, x, x, 0, 0}, v);
+                    if (v[0] * (float)((1 << bits) - 1) >= (float)k - 0.5f)
+                        high = middle;
+                    else
+                        low = middle;
+                }
+                for (uint32_t near = low - 20; near < low + 20; near++) {
+                    float want[4], got[4];
+                    memcpy(&x, &near, sizeof x);
+                    film_develop(&film, (Color){x, x, x, 0, 0}, want);
+                    film_develop(&quick, (Color){x, x, x, 0, 0}, got);
+                    assert_true(want[0] == got[0]);
+                }
+            }
+        }
+    }
+    arena_destroy(arena);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(curves_at_16_bits), cmocka_unit_test(numbers_of_bits),
-        cmocka_unit_test(alpha_and_grey),    cmocka_unit_test(known_values),
-        cmocka_unit_test(floats_are_linear), cmocka_unit_test(odd_colors_are_clipped),
+        cmocka_unit_test(curves_at_16_bits),     cmocka_unit_test(numbers_of_bits),
+        cmocka_unit_test(alpha_and_grey),        cmocka_unit_test(known_values),
+        cmocka_unit_test(floats_are_linear),     cmocka_unit_test(odd_colors_are_clipped),
+        cmocka_unit_test(tables_change_nothing),
     };
     return cmocka_run_group_tests_name("film", tests, NULL, NULL);
 }

@@ -5,6 +5,7 @@
 #include "render/film.h"
 
 #include <math.h>
+#include <string.h>
 
 static const float LEAST_ALPHA = 1.0e-6f; // stands in for an alpha of 0 in the division
 
@@ -37,6 +38,81 @@ static float quantise(const Film *film, float x) {
     return floorf(clipped * most + 0.5f) / most;
 }
 
+// ---- table --------------------------------------------------------------------------------------
+
+// The curve and the rounding are a staircase: step k begins at edge[k]. Positive floats sort as
+// their bits do, so the upper bits lead to the step at the beginning of a short run of floats.
+enum { TABLE_BITS = 8, SHIFT = 15, ONE = 0x3f800000, RUNS = (ONE >> SHIFT) + 1 };
+
+typedef struct FilmTable {
+    float edge[(1 << TABLE_BITS) + 1]; // the last one: never reached
+    uint8_t step[RUNS];
+} FilmTable;
+
+static uint32_t bits_of(float x) {
+    uint32_t bits;
+    memcpy(&bits, &x, sizeof bits);
+    return bits;
+}
+
+static float float_of(uint32_t bits) {
+    float x;
+    memcpy(&x, &bits, sizeof x);
+    return x;
+}
+
+static float encode_and_round(const Film *film, float x) {
+    return quantise(film, transfer_apply(&film->transfer, x));
+}
+
+// The least positive float (as bits) whose value is at least that of step k; 1 has the highest.
+static uint32_t first_of_step(const Film *film, int k) {
+    float most = (float)((1 << film->bits) - 1), value = (float)k / most;
+    uint32_t low = 0, high = ONE;
+    while (low < high) {
+        uint32_t middle = low + (high - low) / 2;
+        if (encode_and_round(film, float_of(middle)) >= value)
+            high = middle;
+        else
+            low = middle + 1;
+    }
+    return low;
+}
+
+void film_prepare(Film *film, Arena *arena) {
+    int steps = 1 << film->bits;
+    if (film->floats || film->bits > TABLE_BITS || encode_and_round(film, 0.0f) > 0.0f ||
+        encode_and_round(film, 1.0f) < 1.0f)
+        return;
+    FilmTable *table = ARENA_NEW(arena, FilmTable);
+    for (int k = 0; k < steps; k++)
+        table->edge[k] = float_of(first_of_step(film, k));
+    table->edge[steps] = INFINITY;
+    int k = 0;
+    for (uint32_t run = 0; run < RUNS; run++) {
+        while (float_of(run << SHIFT) >= table->edge[k + 1])
+            k++;
+        table->step[run] = (uint8_t)k;
+    }
+    film->table = table;
+}
+
+static float develop_channel(const Film *film, float x) {
+    const FilmTable *table = film->table;
+    if (film->floats)
+        return transfer_apply(&film->transfer, x);
+    if (table == NULL)
+        return encode_and_round(film, x);
+    if (!(x > 0.0f)) // NaN: 0
+        return 0.0f;
+    if (x >= 1.0f)
+        return 1.0f;
+    int k = table->step[bits_of(x) >> SHIFT];
+    while (x >= table->edge[k + 1])
+        k++;
+    return (float)k / (float)((1 << film->bits) - 1);
+}
+
 void film_develop(const Film *film, Color color, float *values) {
     Rgb c = color_rgb(color);
     int count = film->grayscale ? 1 : 3;
@@ -51,10 +127,8 @@ void film_develop(const Film *film, Color color, float *values) {
         for (int i = 0; i < count; i++)
             channel[i] /= alpha != 0.0f ? alpha : LEAST_ALPHA;
     }
-    for (int i = 0; i < count; i++) {
-        float encoded = transfer_apply(&film->transfer, channel[i]);
-        values[i] = film->floats ? encoded : quantise(film, encoded);
-    }
+    for (int i = 0; i < count; i++)
+        values[i] = develop_channel(film, channel[i]);
     if (film->alpha)
         values[count] = film->floats ? alpha : quantise(film, alpha);
 }

@@ -14,13 +14,16 @@ typedef struct {
     int bits;          // 1..16
     bool grayscale;
     bool alpha;
-    double header_gamma; // for ImageWriteOptions: 0 unknown
+    const struct FilmTable *table; // of film_prepare
+    double header_gamma;           // for ImageWriteOptions: 0 unknown
     bool header_srgb;
 } Film;
 
 // file_gamma 0 is the sRGB curve. grayscale takes 16 bits whatever bits says, as in POV-Ray.
 Film film_create(const Settings *settings, ImageFormat format, int bits, bool grayscale, bool alpha,
                  double file_gamma);
+// Makes the same values come faster, for files of up to 8 bits; the film uses arena from then on.
+void film_prepare(Film *film, Arena *arena);
 int film_channels(const Film *film); // 1 to 4
 // One pixel: film_channels() values k / (2^bits - 1), or linear floats.
 void film_develop(const Film *film, Color color, float *values);

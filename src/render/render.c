@@ -281,6 +281,7 @@ Image *render_scene(const Scene *scene, const RenderOptions *o, Arena *arena,
     // Develop the film.
     Film film =
         film_create(&scene->settings, o->format, o->bits, o->grayscale, o->alpha, o->file_gamma);
+    film_prepare(&film, scratch);
     Image *image = render_interrupted ? NULL : develop(&film, job.picture, o, arena);
     *write = (ImageWriteOptions){.format = o->format,
                                  .bits = film.bits,

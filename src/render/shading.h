@@ -61,6 +61,7 @@ struct Shading {
     LightAxis *axes;      // one per light
     World **projections;  // one per light: what it shines through, or NULL
     bool groups;          // some light does not shine on everything
+    bool grainy;          // crand or a jitter draws random numbers
     BowAngles *bows;      // one per rainbow
     size_t grid_limit;    // points in the largest area light
     Arena *arena;

@@ -9,10 +9,11 @@
 
 #include "texture/pigment.h"
 
+#include <float.h>
 #include <math.h>
 
-// POV-Ray takes depths > SHADE_SHADOW_TOL; our queries take t >= t_min.
-static double shadow_t_min(void) { return nextafter(SHADE_SHADOW_TOL, 1.0); }
+// POV-Ray takes depths > SHADE_SHADOW_TOL; our queries take t >= t_min: the next number.
+static const double SHADOW_T_MIN = SHADE_SHADOW_TOL * (1.0 + DBL_EPSILON);
 
 // The bodies that swallow light and that the shadow ray has crossed an odd number of times: it is
 // inside those and those of the surface's own ray, but not inside both. Only fading and fog need
@@ -167,15 +168,14 @@ static bool find_projection(Tracer *tracer, uint32_t light, const Ray *ray, doub
 static double follow(Tracer *tracer, Way *way, double distance, double before, Rgb *color) {
     const World *world = way->shading->world;
     const Rgb black = {0};
-    double t_min = shadow_t_min();
     if (way->shading->all_opaque) {
-        if (world_occluded(world, &way->ray, t_min, distance - before, &tracer->stats))
+        if (world_occluded(world, &way->ray, SHADOW_T_MIN, distance - before, &tracer->stats))
             *color = black;
         return distance;
     }
     WorldHit hit;
-    while (world_intersect(world, &way->ray, t_min, distance - before, RAY_SHADOW, &tracer->stats,
-                           &hit)) {
+    while (world_intersect(world, &way->ray, SHADOW_T_MIN, distance - before, RAY_SHADOW,
+                           &tracer->stats, &hit)) {
         if (!surface_filter(way, &hit, color)) {
             *color = black;
             break;

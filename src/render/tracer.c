@@ -93,6 +93,7 @@ static void prepare_lights(Shading *shading) {
         if (light->type != LIGHT_POINT)
             axis->travel = vec_normalize(vec_sub(light->point_at, light->location));
         shading->groups |= light->group != 0;
+        shading->grainy |= light->has_area && light->area.jitter;
         if (light->has_projection)
             shading->projections[i] = lone_world(shading, light->projection);
         bool spot = light->type == LIGHT_SPOT;
@@ -102,6 +103,11 @@ static void prepare_lights(Shading *shading) {
         if (light->has_area && points > shading->grid_limit)
             shading->grid_limit = points;
     }
+}
+
+static void prepare_rainbow(Shading *shading, uint32_t i) {
+    shading->bows[i] = rainbow_angles(&shading->scene->rainbows[i]);
+    shading->grainy |= shading->scene->rainbows[i].jitter > 0.0;
 }
 
 Shading *shading_create(const Scene *scene, const World *world, const TraceOptions *options) {
@@ -120,7 +126,10 @@ Shading *shading_create(const Scene *scene, const World *world, const TraceOptio
     prepare_lights(shading);
     shading->bows = ARENA_ARRAY(arena, BowAngles, scene->rainbow_count);
     for (uint32_t i = 0; i < scene->rainbow_count; i++)
-        shading->bows[i] = rainbow_angles(&scene->rainbows[i]);
+        prepare_rainbow(shading, i);
+    for (uint32_t i = 0; i < scene->texture_count; i++)
+        for (uint32_t j = 0; j < scene->textures[i].layer_count; j++)
+            shading->grainy |= scene->textures[i].layers[j].finish.crand > 0.0f;
     return shading;
 }
 
@@ -246,7 +255,8 @@ Color tracer_trace(Tracer *tracer, const Ray *ray) {
         .kind = RAY_CAMERA,
         .alpha = shading->options.alpha,
     };
-    tracer->crand = tracer->area_jitter = tracer->bow_jitter = grain_seed(ray);
+    if (shading->grainy)
+        tracer->crand = tracer->area_jitter = tracer->bow_jitter = grain_seed(ray);
     tracer->stats.primary++;
     Color color = trace_path(tracer, &path, false);
     color.filter = 0.0f;

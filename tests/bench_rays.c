@@ -236,6 +236,10 @@ int main(int argc, char **argv) {
     int rounds = argc > 1 ? atoi(argv[1]) : 5, threads = argc > 2 ? atoi(argv[2]) : 1;
     rounds = rounds < 1 ? 1 : rounds > MAX_ROUNDS ? MAX_ROUNDS : rounds;
     const char *only = argc > 3 ? argv[3] : NULL, *method = argc > 4 ? argv[4] : NULL;
+    if (argc > 5 && patch_isa_choose(argv[5]) != PATCH_ISA_CHOSEN) {
+        fprintf(stderr, "no such instruction set\n");
+        return 2;
+    }
     if (!load_teapot()) {
         fprintf(stderr, "the teapot of povray-examples is missing\n");
         return 1;

@@ -59,12 +59,9 @@ static void fill(Bezier *patches, double wild) {
         random_patch(&rng, i == 3 ? 2 : 3, i == 4 ? 5 : 3, wild, &patches[i]);
 }
 
-static void same_bits(void **state) {
-    (void)state;
-    static Bezier patches[PATCHES];
-    static Answer answers[RAYS];
-    fill(patches, 0.3);
+static PatchSet *make_set(const Bezier *patches, PatchPrepare prepare) {
     PatchSetOptions options = patchset_options_default();
+    options.prepare = prepare;
     PatchSet *set = patchset_create(&options);
     for (int i = 0; i < PATCHES; i++) {
         PatchDef def = {.degree_u = (uint32_t)patches[i].du,
@@ -77,6 +74,49 @@ static void same_bits(void **state) {
         patchset_add(set, &def);
     }
     patchset_commit(set);
+    return set;
+}
+
+// However few pieces are prepared, the hits are the same within their bounds.
+static void prepared_less(void **state) {
+    (void)state;
+    static Bezier patches[PATCHES];
+    fill(patches, 0.2);
+    PatchSet *sets[PREPARE_COUNT];
+    for (int k = 0; k < PREPARE_COUNT; k++) {
+        sets[k] = make_set(patches, (PatchPrepare)k);
+        if (k > 0)
+            assert_true(patchset_memory(sets[k]) < patchset_memory(sets[k - 1]));
+        PatchPrepare parsed;
+        assert_true(patch_prepare_parse(patch_prepare_name((PatchPrepare)k), &parsed));
+        assert_int_equal(parsed, k);
+    }
+    Rng rng = {78};
+    int hits = 0, apart = 0;
+    for (int i = 0; i < 500; i++) {
+        const Bezier *patch = &patches[i % PATCHES];
+        Ray ray = ray_to(patch, rng_unit(&rng), rng_unit(&rng), random_direction(&rng), 3.0);
+        PatchHit hit[PREPARE_COUNT];
+        for (int k = 0; k < PREPARE_COUNT; k++) {
+            assert_true(patchset_intersect(sets[k], &ray, 0.0, INFINITY, 1, NULL, &hit[k]));
+            hits++;
+            // At a grazing ray depths differ by more than bounds do across the ray.
+            if (k > 0 && fabs(hit[k].t - hit[0].t) > 1e-7)
+                apart++;
+        }
+    }
+    assert_int_equal(hits, 500 * PREPARE_COUNT);
+    assert_true(apart <= 2);
+    for (int k = 0; k < PREPARE_COUNT; k++)
+        patchset_destroy(sets[k]);
+}
+
+static void same_bits(void **state) {
+    (void)state;
+    static Bezier patches[PATCHES];
+    static Answer answers[RAYS];
+    fill(patches, 0.3);
+    PatchSet *set = make_set(patches, PREPARE_FULL);
     int compared = 0, hits = 0;
     for (size_t k = 0; k < sizeof names / sizeof names[0]; k++) {
         PatchIsa done = patch_isa_choose(names[k]);
@@ -121,6 +161,7 @@ static void names_are_checked(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(same_bits),
+        cmocka_unit_test(prepared_less),
         cmocka_unit_test(names_are_checked),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -6,12 +6,15 @@
 #include "base/diag.h"
 
 #include <stdarg.h>
+#include <stdbool.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/mman.h>
 
 enum { ALIGN = 64 };
+static const size_t HUGE_PAGE = (size_t)1 << 21;
 #ifdef HOSTILE
 static const size_t BLOCK_SIZE = 0;
 #else
@@ -50,8 +53,12 @@ void arena_destroy(Arena *arena) {
 static Block *add_block(Arena *arena, size_t size) {
     Block *b = calloc(1, sizeof *b);
     void *data = NULL;
-    if (!b || posix_memalign(&data, ALIGN, size ? size : 1) != 0)
+    bool huge = size >= 2 * HUGE_PAGE;
+    if (!b || posix_memalign(&data, huge ? HUGE_PAGE : ALIGN, size ? size : 1) != 0)
         die("out of memory (%zu bytes wanted)", size);
+    // Rays jump about in large tables: with small pages the processor looks up as many addresses.
+    if (huge)
+        madvise(data, size, MADV_HUGEPAGE);
     memset(data, 0, size);
     b->data = data;
     b->size = size;

@@ -120,8 +120,10 @@ static void print_statistics(const RenderOptions *o, const RenderStats *s, doubl
 
     console_print(CONSOLE_STATISTIC, "%s\n", rule);
     console_print(CONSOLE_STATISTIC, "  Reading the scene      %15.3f s\n", read_seconds);
-    console_print(CONSOLE_STATISTIC, "  Preparing the patches  %15.3f s   %.1f MB\n",
-                  s->prepare_seconds, (double)s->memory / 1e6);
+    console_print(CONSOLE_STATISTIC,
+                  "  Preparing the patches  %15.3f s   %.1f MB, %.0f bytes a patch\n",
+                  s->prepare_seconds, (double)s->memory / 1e6,
+                  s->patches ? (double)s->memory / (double)s->patches : 0.0);
     console_print(CONSOLE_STATISTIC, "  Tracing                %15.3f s   %.3g rays/s\n",
                   s->trace_seconds, s->trace_seconds > 0 ? (double)rays / s->trace_seconds : 0.0);
     console_print(CONSOLE_STATISTIC,

@@ -20,7 +20,7 @@ static inline double clamp(double x, double low, double high) {
 }
 static inline double length1(Vec3 a) { return fabs(a.x) + fabs(a.y) + fabs(a.z); }
 
-// S, Su, Sv of a cubic patch; points as [column][row][x y z 0].
+// S, Su, Sv of a cubic patch; points as [column][row][x y z]; four numbers are read for each.
 static inline void eval_cubic(const double *p, double u, double v, Vec3 out[3]) {
     double r = 1.0 - u, s = 1.0 - v;
     double rr = r * r, uu = u * u, ss = s * s, vv = v * v;
@@ -31,8 +31,8 @@ static inline void eval_cubic(const double *p, double u, double v, Vec3 out[3]) 
     double dv[4] = {-3.0 * ss, 3.0 * s * (s - 2.0 * v), 3.0 * v * (2.0 * s - v), 3.0 * vv};
     D4 at = d4_all(0.0), along_u = at, along_v = at;
     for (int j = 0; j < 4; j++) {
-        D4 p0 = d4_load(p + 16 * j), p1 = d4_load(p + 16 * j + 4), p2 = d4_load(p + 16 * j + 8),
-           p3 = d4_load(p + 16 * j + 12);
+        D4 p0 = d4_load(p + 12 * j), p1 = d4_load(p + 12 * j + 3), p2 = d4_load(p + 12 * j + 6),
+           p3 = d4_load(p + 12 * j + 9);
         D4 row = (wu[0] * p0 + wu[1] * p1) + (wu[2] * p2 + wu[3] * p3);
         D4 slope = (du[0] * p0 + du[1] * p1) + (du[2] * p2 + du[3] * p3);
         at += d4_all(wv[j]) * row;

@@ -109,11 +109,12 @@ typedef struct {
     const char *all_file;                    // one of all streams
     bool append_file;                        // to files that are there
     PatchMethod method;
-    int finer;        // --finer: facets cuts the patches so many times more
-    double tolerance; // --tolerance, relative to the patch (PatchSetOptions)
-    double pixels;    // the same in pixels, in place of it; 0: not given
-    int pixel[2];     // --pixel: column and row from 0; -1: none
-    unsigned aovs;    // --aov: bit 1 << AovKind each
+    int finer;            // --finer: facets cuts the patches so many times more
+    PatchPrepare prepare; // --prepare
+    double tolerance;     // --tolerance, relative to the patch (PatchSetOptions)
+    double pixels;        // the same in pixels, in place of it; 0: not given
+    int pixel[2];         // --pixel: column and row from 0; -1: none
+    unsigned aovs;        // --aov: bit 1 << AovKind each
     bool strict;
     bool binary;                                 // pov2qi
     bool check;                                  // pov2qi: read the scene, write nothing

@@ -330,6 +330,12 @@ static bool apply_accuracy(Parse *parse, const OptionRow *row, bool on, const ch
     return complain(parse, "draft, pixel, fine or exact");
 }
 
+static bool apply_prepare(Parse *parse, const OptionRow *row, bool on, const char *value) {
+    (void)row, (void)on;
+    return patch_prepare_parse(value, &parse->options->prepare) ||
+           complain(parse, "the ways are full, light, none");
+}
+
 // Takes effect at once: all that trace in this program use it.
 static bool apply_isa(Parse *parse, const OptionRow *row, bool on, const char *value) {
     (void)row, (void)on;
@@ -495,6 +501,8 @@ const OptionRow option_rows[] = {
              "steps,bound,object"},
     {OPTION_SPECIAL, NULL, NULL, "pixel", "x,y", IN_QIRENDER, .apply = apply_pixel,
      .help = "instead of a picture, print how this pixel comes about: rays, hits, nets, lights"},
+    {OPTION_SPECIAL, NULL, NULL, "prepare", "how", DRAWS, .apply = apply_prepare,
+     .help = "sub-patches for qi: full (default), light (few), none (the paper's; same hits)"},
     {OPTION_SPECIAL, NULL, NULL, "isa", "name", DRAWS, .apply = apply_isa,
      .help = "instruction set for qi: scalar, avx2, avx512 (the best there is; same pictures)"},
 

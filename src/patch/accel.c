@@ -53,9 +53,9 @@ bool walk_take(void *context, const Root *root) {
     return !query_done(query);
 }
 
-Accel *accel_create(Arena *arena, const PatchDef *defs, size_t count) {
+Accel *accel_create(Arena *arena, const PatchDef *defs, size_t count, PatchPrepare prepare) {
     Accel *accel = ARENA_NEW(arena, Accel);
-    pieces_build(arena, defs, count, accel);
+    pieces_build(arena, defs, count, prepare, accel);
     return accel;
 }
 

@@ -12,7 +12,7 @@
 typedef struct Accel Accel;
 
 // Keeps pointers into defs and its points; everything else lies in the arena.
-Accel *accel_create(Arena *arena, const PatchDef *defs, size_t count);
+Accel *accel_create(Arena *arena, const PatchDef *defs, size_t count, PatchPrepare prepare);
 void accel_query(const Accel *accel, Query *query);
 
 #endif

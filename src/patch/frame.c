@@ -61,53 +61,94 @@ static bool dual_axes(Vec3 su, Vec3 sv, Vec3 axes[3]) {
 
 static double length1(Vec3 a) { return fabs(a.x) + fabs(a.y) + fabs(a.z); }
 
-// Bounds of each coordinate of a Bézier patch: the hull's and the QI net's, whichever is less.
-static Box tight_box(const Bezier *s) {
-    Bezier net;
-    quasi_net(s, &net);
-    Vec3 e = quasi_deviation_axes(s);
-    Box hull = bezier_bounds(s), thick = bezier_bounds(&net);
-    return (Box){vec_max(hull.low, vec_sub(thick.low, e)),
-                 vec_min(hull.high, vec_add(thick.high, e))};
+// One coordinate of a piece: its Bézier coefficients, index i * (dv + 1) + j.
+typedef struct {
+    double c[BEZIER_MAX_POINTS];
+} Coordinate;
+
+typedef struct {
+    double low, high;
+} Span;
+
+static inline Span span_join(Span a, double x) {
+    return (Span){x < a.low ? x : a.low, x > a.high ? x : a.high};
 }
 
-// Box of the differences of neighbours along u or v.
-static Box slopes(const Bezier *s, int along_u) {
-    int row = s->dv + 1, step = along_u ? row : 1;
-    Box box = box_empty();
-    for (int i = 0; i + along_u <= s->du; i++) {
-        for (int j = 0; j + 1 - along_u <= s->dv; j++)
-            box = box_extend(box, vec_sub(s->p[i * row + j + step], s->p[i * row + j]));
+// Bounds of a - c, for a rising from -1 to 1 along u (along = 0) or v (1), or of c itself (-1): the
+// hull's and the QI net's, whichever is less. The net of a linear function is that function, and
+// its second differences are 0.
+static Span tight_span(const Coordinate *coordinate, int du, int dv, int along) {
+    const double *c = coordinate->c;
+    int row = dv + 1;
+    Span hull = {INFINITY, -INFINITY}, net = hull;
+    double most_u = 0.0, most_v = 0.0;
+    for (int i = 0; i <= du; i++) {
+        double middle[BEZIER_MAX_DEGREE + 1];
+        for (int j = 0; j <= dv; j++) {
+            const double *at = c + i * row + j;
+            middle[j] = at[0];
+            if (i > 0 && i < du) {
+                double second = (at[row] - at[0]) - (at[0] - at[-row]);
+                most_u = larger(most_u, fabs(second));
+                middle[j] += 0.25 * second;
+            }
+        }
+        for (int j = 0; j <= dv; j++) {
+            double q = middle[j], x = c[i * row + j], linear = 0.0;
+            if (j > 0 && j < dv) {
+                const double *at = c + i * row + j;
+                most_v = larger(most_v, fabs((at[1] - at[0]) - (at[0] - at[-1])));
+                q += 0.25 * ((middle[j + 1] - middle[j]) - (middle[j] - middle[j - 1]));
+            }
+            if (along >= 0) {
+                linear = along == 0 ? 2.0 * i / du - 1.0 : 2.0 * j / dv - 1.0;
+                q = linear - q;
+                x = linear - x;
+            }
+            net = span_join(net, q);
+            hull = span_join(hull, x);
+        }
     }
-    return box;
+    double e = quasi_z_infinity(du) * most_u + quasi_z_infinity(dv) * most_v;
+    return (Span){larger(hull.low, net.low - e), -larger(-hull.high, -net.high - e)};
 }
 
-static double size_of(double low, double high) { return larger(fabs(low), fabs(high)); }
+// Span of the differences of neighbours along u or v.
+static Span slopes(const Coordinate *c, int du, int dv, int along_u) {
+    int row = dv + 1, step = along_u ? row : 1;
+    Span span = {INFINITY, -INFINITY};
+    for (int i = 0; i + along_u <= du; i++) {
+        for (int j = 0; j + 1 - along_u <= dv; j++)
+            span = span_join(span, c->c[i * row + j + step] - c->c[i * row + j]);
+    }
+    return span;
+}
+
+static double size_of(Span s) { return larger(fabs(s.low), fabs(s.high)); }
 
 // Two points of the piece differ by A da + B db, A and B means of the tangents, which lie in the
 // boxes of the control points' slopes. They are on one ray along q only if (A x B) . q = 0. With
 // bounds N of the coordinates of A x B that is impossible when |qz| min Nz > |qx| Nx + |qy| Ny.
-static void steepness(const Bezier *local, Vec3 error, double steep[2]) {
-    Box a = slopes(local, 1), b = slopes(local, 0);
-    // Twice the points' error; and what PIECE_MARGIN adds (see bound_up in piece.c).
-    for (int k = 0; k < 2; k++) {
-        Box *box = k ? &a : &b;
-        Vec3 most = vec_max(vec_neg(box->low), box->high);
-        Vec3 more = vec_madd(vec_scale(error, 2.0), 0x1p-12,
-                             vec3(fabs(most.x), fabs(most.y), fabs(most.z)));
-        box->low = vec_sub(box->low, more);
-        box->high = vec_add(box->high, more);
+static void steepness(const Coordinate local[3], int du, int dv, Vec3 error, double steep[2]) {
+    Span a[3], b[3];
+    for (int k = 0; k < 3; k++) {
+        a[k] = slopes(&local[k], du, dv, 1);
+        b[k] = slopes(&local[k], du, dv, 0);
+        // Twice the points' error; and what PIECE_MARGIN adds (see bound_up in piece.c).
+        double more_a = 2.0 * vec_get(error, k) + 0x1p-12 * size_of(a[k]);
+        double more_b = 2.0 * vec_get(error, k) + 0x1p-12 * size_of(b[k]);
+        a[k] = (Span){a[k].low - more_a, a[k].high + more_a};
+        b[k] = (Span){b[k].low - more_b, b[k].high + more_b};
     }
     steep[0] = steep[1] = INFINITY;
-    if (!(a.low.x > 0.0 && b.low.y > 0.0))
+    if (!(a[0].low > 0.0 && b[1].low > 0.0))
         return;
-    double ay = size_of(a.low.y, a.high.y), az = size_of(a.low.z, a.high.z);
-    double bx = size_of(b.low.x, b.high.x), bz = size_of(b.low.z, b.high.z);
-    double least = a.low.x * b.low.y - ay * bx;
+    double ay = size_of(a[1]), az = size_of(a[2]), bx = size_of(b[0]), bz = size_of(b[2]);
+    double least = a[0].low * b[1].low - ay * bx;
     if (!(least > 0.0))
         return;
-    steep[0] = (ay * bz + az * b.high.y) / least * (1.0 + 0x1p-40);
-    steep[1] = (az * bx + a.high.x * bz) / least * (1.0 + 0x1p-40);
+    steep[0] = (ay * bz + az * b[1].high) / least * (1.0 + 0x1p-40);
+    steep[1] = (az * bx + a[0].high * bz) / least * (1.0 + 0x1p-40);
 }
 
 static float to_float(double x) { return fabs(x) < (double)FLT_MAX ? (float)x : 0.0f; }
@@ -115,120 +156,146 @@ static float up(double x) {
     return x < 0.5 * (double)FLT_MAX ? nextafterf((float)x, INFINITY) : INFINITY;
 }
 
-// The rest of a - x and b - y: a Bézier patch again.
-static void parameter_rest(const Bezier *local, double error, int axis, double *shift,
-                           float *rest) {
-    Bezier s;
-    bezier_copy(&s, local);
-    int row = s.dv + 1;
-    for (int i = 0; i <= s.du; i++) {
-        for (int j = 0; j <= s.dv; j++) {
-            double t = axis == 0 ? 2.0 * i / s.du - 1.0 : 2.0 * j / s.dv - 1.0;
-            s.p[i * row + j].x = t - vec_get(local->p[i * row + j], axis);
+// S and its tangents at the middle, by the weights of its degree there.
+static void middle_of(const Bezier *s, Vec3 out[3]) {
+    BezierJet jet;
+    if (s->du != 3 || s->dv != 3) {
+        out[0] = bezier_eval1(s, 0.5, 0.5, &jet.su, &jet.sv);
+        out[1] = jet.su;
+        out[2] = jet.sv;
+        return;
+    }
+    static const double value[4] = {0.125, 0.375, 0.375, 0.125};
+    static const double slope[4] = {-0.75, -0.75, 0.75, 0.75};
+    out[0] = out[1] = out[2] = vec3(0.0, 0.0, 0.0);
+    for (int i = 0; i < 4; i++) {
+        Vec3 row = vec3(0.0, 0.0, 0.0), along = row;
+        for (int j = 0; j < 4; j++) {
+            row = vec_madd(row, value[j], s->p[4 * i + j]);
+            along = vec_madd(along, slope[j], s->p[4 * i + j]);
         }
-    }
-    Box box = tight_box(&s);
-    *shift = 0.5 * (box.low.x + box.high.x);
-    // Rounding: of the points and of a few sums of numbers about 1.
-    *rest = up((0.5 * (box.high.x - box.low.x) + error) * (1.0 + 0x1p-20) + 0x1p-20 * fabs(*shift) +
-               0x1p-45);
-}
-
-static void set_poly(Piece *piece, int i, int j, const PieceFrame *frame, Vec3 c) {
-    for (int k = 0; k < 3; k++)
-        piece->poly[j][i][k] = to_float(vec_get(c, k) / frame->half[k]);
-}
-
-// Powers of a in [-1,1] about the middle, from Bernstein coefficients.
-static void cubic_powers(const Vec3 b[4], Vec3 out[4]) {
-    Vec3 ends = vec_add(b[0], b[3]), inner = vec_add(b[1], b[2]);
-    Vec3 ends_by = vec_sub(b[3], b[0]), inner_by = vec_sub(b[2], b[1]);
-    out[0] = vec_scale(vec_madd(ends, 3.0, inner), 0.125);
-    out[1] = vec_scale(vec_add(ends_by, inner_by), 0.375);
-    out[2] = vec_scale(vec_sub(ends, inner), 0.375);
-    out[3] = vec_scale(vec_madd(ends_by, -3.0, inner_by), 0.125);
-}
-
-static void cubic_poly(const Bezier *local, const PieceFrame *frame, Piece *piece) {
-    Vec3 rows[4][4]; // [row of points][power of b]
-    for (int i = 0; i < 4; i++)
-        cubic_powers(&local->p[4 * i], rows[i]);
-    for (int j = 0; j < 4; j++) {
-        Vec3 column[4] = {rows[0][j], rows[1][j], rows[2][j], rows[3][j]}, powers[4];
-        cubic_powers(column, powers);
-        if (j == 0)
-            powers[0] = vec_sub(powers[0], frame->middle);
-        for (int i = 0; i < 4; i++)
-            set_poly(piece, i, j, frame, powers[i]);
+        out[0] = vec_madd(out[0], value[i], row);
+        out[1] = vec_madd(out[1], slope[i], row);
+        out[2] = vec_madd(out[2], value[i], along);
     }
 }
 
-static void taylor_poly(const Bezier *local, const PieceFrame *frame, Piece *piece) {
-    BezierJet jet;
-    bezier_eval2(local, 0.5, 0.5, &jet);
-    memset(piece->poly, 0, sizeof piece->poly);
-    set_poly(piece, 0, 0, frame, vec_sub(jet.s, frame->middle));
-    set_poly(piece, 1, 0, frame, vec_scale(jet.su, 0.5));
-    set_poly(piece, 0, 1, frame, vec_scale(jet.sv, 0.5));
-    set_poly(piece, 2, 0, frame, vec_scale(jet.suu, 0.125));
-    set_poly(piece, 1, 1, frame, vec_scale(jet.suv, 0.25));
-    set_poly(piece, 0, 2, frame, vec_scale(jet.svv, 0.125));
+// The piece in the directions of the axes, about `from`.
+static void to_local(const Bezier *part, const Vec3 axes[3], Vec3 from, Coordinate local[3]) {
+    for (int k = 0; k < bezier_count(part); k++) {
+        Vec3 d = vec_sub(part->p[k], from);
+        for (int axis = 0; axis < 3; axis++)
+            local[axis].c[k] = vec_dot(axes[axis], d);
+    }
 }
 
-void frame_make(const Bezier *part, double error, PieceFrame *frame, Piece *piece) {
-    BezierJet jet;
-    bezier_eval2(part, 0.5, 0.5, &jet);
-    Vec3 axes[3];
-    frame->regular = dual_axes(vec_scale(jet.su, 0.5), vec_scale(jet.sv, 0.5), axes);
+void frame_measure(const Bezier *part, double error, PieceFrame *frame) {
+    Vec3 at[3], axes[3];
+    middle_of(part, at);
+    frame->regular = dual_axes(vec_scale(at[1], 0.5), vec_scale(at[2], 0.5), axes);
     if (!frame->regular) {
         int last = bezier_count(part) - 1;
         any_axes(vec_sub(part->p[last], part->p[0]),
                  vec_sub(part->p[last - part->dv], part->p[part->dv]), axes);
     }
-
-    // The piece in the frame, about its middle. Rounding: the points' own, 2^-52 of their distance
-    // to the patch's center (error is more than that), and a few ulps of the piece's size.
-    Bezier local = {.du = part->du, .dv = part->dv};
+    // Rounding: the points' own, 2^-52 of their distance to the patch's center (error is more than
+    // that), and a few ulps of the piece's size.
+    Coordinate local[3];
+    to_local(part, axes, at[0], local);
     double reach = 0.0;
-    for (int k = 0; k < bezier_count(part); k++) {
-        Vec3 d = vec_sub(part->p[k], jet.s);
-        reach = larger(reach, length1(d));
-        local.p[k] = vec3(vec_dot(axes[0], d), vec_dot(axes[1], d), vec_dot(axes[2], d));
-    }
+    for (int k = 0; k < bezier_count(part); k++)
+        reach = larger(reach, length1(vec_sub(part->p[k], at[0])));
     double wide = 4.0 * error + 0x1p-48 * reach;
     Vec3 slack = vec3(length1(axes[0]) * wide, length1(axes[1]) * wide, length1(axes[2]) * wide);
-    Box box = tight_box(&local);
-    box.low = vec_sub(box.low, slack);
-    box.high = vec_add(box.high, slack);
 
-    frame->middle = vec_scale(vec_add(box.low, box.high), 0.5);
+    double middle[3];
     for (int k = 0; k < 3; k++) {
-        double low = vec_get(box.low, k), high = vec_get(box.high, k);
-        double half = larger(0.5 * (high - low), FRAME_LEAST), middle = 0.5 * (low + high);
+        Span span = tight_span(&local[k], part->du, part->dv, -1);
+        double low = span.low - vec_get(slack, k), high = span.high + vec_get(slack, k);
+        double half = larger(0.5 * (high - low), FRAME_LEAST);
+        middle[k] = 0.5 * (low + high);
         Vec3 row = vec_scale(axes[k], 1.0 / half);
         frame->half[k] = half;
         frame->row[k][0] = row.x;
         frame->row[k][1] = row.y;
         frame->row[k][2] = row.z;
-        frame->shift[k] = -vec_dot(row, jet.s) - middle / half;
+        frame->shift[k] = -vec_dot(row, at[0]) - middle[k] / half;
     }
-    frame->steep[0] = frame->steep[1] = INFINITY;
-    piece->rest_a = piece->rest_b = INFINITY;
+    for (int k = 0; k < 2; k++) {
+        frame->steep[k] = frame->rest[k] = INFINITY;
+        frame->rest_shift[k] = 0.0;
+    }
     if (!frame->regular)
         return;
-    steepness(&local, slack, frame->steep);
-    frame->steep[0] *= frame->half[0] / frame->half[2];
-    frame->steep[1] *= frame->half[1] / frame->half[2];
-    double shift_a, shift_b;
-    parameter_rest(&local, slack.x, 0, &shift_a, &piece->rest_a);
-    parameter_rest(&local, slack.y, 1, &shift_b, &piece->rest_b);
-    // a = half x + middle + the rest's middle.
-    piece->shift_a = (float)(shift_a + 0.5 * (box.low.x + box.high.x));
-    piece->shift_b = (float)(shift_b + 0.5 * (box.low.y + box.high.y));
-    if (part->du == 3 && part->dv == 3)
-        cubic_poly(&local, frame, piece);
-    else
-        taylor_poly(&local, frame, piece);
+    steepness(local, part->du, part->dv, slack, frame->steep);
+    for (int k = 0; k < 2; k++) {
+        frame->steep[k] *= frame->half[k] / frame->half[2];
+        // a = half x + middle + the rest's middle, with the rest of a less x.
+        Span rest = tight_span(&local[k], part->du, part->dv, k);
+        double shift = 0.5 * (rest.low + rest.high);
+        frame->rest_shift[k] = shift + middle[k];
+        // Rounding: of the points, and of a few sums of numbers about 1.
+        frame->rest[k] = (0.5 * (rest.high - rest.low) + vec_get(slack, k)) * (1.0 + 0x1p-20) +
+                         0x1p-20 * fabs(shift) + 0x1p-45;
+    }
+}
+
+Box frame_box(const Bezier *part, double error) {
+    Coordinate c[3];
+    double low[3], high[3];
+    for (int k = 0; k < bezier_count(part); k++) {
+        c[0].c[k] = part->p[k].x;
+        c[1].c[k] = part->p[k].y;
+        c[2].c[k] = part->p[k].z;
+    }
+    for (int k = 0; k < 3; k++) {
+        Span span = tight_span(&c[k], part->du, part->dv, -1);
+        low[k] = span.low - error;
+        high[k] = span.high + error;
+    }
+    return (Box){{low[0], low[1], low[2]}, {high[0], high[1], high[2]}};
+}
+
+// Powers of a in [-1,1] about the middle, from Bernstein coefficients `step` apart.
+static void cubic_powers(const double *b, int step, double *out) {
+    double ends = b[0] + b[3 * step], inner = b[step] + b[2 * step];
+    double ends_by = b[3 * step] - b[0], inner_by = b[2 * step] - b[step];
+    out[0] = 0.125 * (ends + 3.0 * inner);
+    out[step] = 0.375 * (ends_by + inner_by);
+    out[2 * step] = 0.375 * (ends - inner);
+    out[3 * step] = 0.125 * (ends_by - 3.0 * inner_by);
+}
+
+static void cubic_poly(const Bezier *part, const PieceFrame *frame, Piece *piece) {
+    for (int k = 0; k < 3; k++) {
+        double c[16], rows[16], powers[16];
+        const double *r = frame->row[k];
+        for (int i = 0; i < 16; i++)
+            c[i] =
+                (r[0] * part->p[i].x + r[1] * part->p[i].y + r[2] * part->p[i].z) + frame->shift[k];
+        for (int i = 0; i < 4; i++)
+            cubic_powers(c + 4 * i, 1, rows + 4 * i);
+        for (int j = 0; j < 4; j++)
+            cubic_powers(rows + j, 4, powers + j);
+        for (int i = 0; i < 4; i++)
+            for (int j = 0; j < 4; j++)
+                piece->poly[j][i][k] = to_float(powers[4 * i + j]);
+    }
+}
+
+static void taylor_poly(const Bezier *part, const PieceFrame *frame, Piece *piece) {
+    BezierJet jet;
+    bezier_eval2(part, 0.5, 0.5, &jet);
+    memset(piece->poly, 0, sizeof piece->poly);
+    for (int k = 0; k < 3; k++) {
+        Vec3 row = vec3(frame->row[k][0], frame->row[k][1], frame->row[k][2]);
+        piece->poly[0][0][k] = to_float(vec_dot(row, jet.s) + frame->shift[k]);
+        piece->poly[0][1][k] = to_float(0.5 * vec_dot(row, jet.su));
+        piece->poly[1][0][k] = to_float(0.5 * vec_dot(row, jet.sv));
+        piece->poly[0][2][k] = to_float(0.125 * vec_dot(row, jet.suu));
+        piece->poly[1][1][k] = to_float(0.25 * vec_dot(row, jet.suv));
+        piece->poly[2][0][k] = to_float(0.125 * vec_dot(row, jet.svv));
+    }
 }
 
 // Rounding of the test in kernel/leaf.h. Let w = 2^-24, L = |row| as the sum of absolute values, R
@@ -239,8 +306,12 @@ void frame_make(const Bezier *part, double error, PieceFrame *frame, Piece *piec
 // comparisons act as if the origin were off by 6 w (L R + 1). Together below 24 L R w + 8 w. The
 // box is made larger by 32 L R w + 16 w beyond what makes it hold the piece, and L R 32 w on top
 // leave room for the ray's own error E, since R >= 2^-19: 2^-38 L >= L E for E <= 2^-38.
-void frame_to_lane(const PieceFrame *frame, const Tree *tree, Vec3 patch_center, double reach,
-                   Block *block, int lane, Piece *piece) {
+void frame_to_lane(const PieceFrame *frame, const Bezier *part, const Tree *tree, Vec3 patch_center,
+                   double reach, Block *block, int lane, Piece *piece) {
+    if (part->du == 3 && part->dv == 3)
+        cubic_poly(part, frame, piece);
+    else
+        taylor_poly(part, frame, piece);
     const double w = 0x1p-24;
     double lengths[3], inflate[3];
     Vec3 place = vec_sub(tree->center, patch_center);
@@ -271,15 +342,14 @@ void frame_to_lane(const PieceFrame *frame, const Tree *tree, Vec3 patch_center,
     // The direction's coordinates err by 7 L w, the sum by 4 w of itself: in the factor above.
     block->steep[2][lane] =
         usable ? up(8.0 * w * (lengths[2] + sx * lengths[0] + sy * lengths[1])) : INFINITY;
-    if (!usable) {
-        piece->rest_a = piece->rest_b = INFINITY;
+    piece->rest_a = piece->rest_b = INFINITY;
+    if (!usable)
         return;
-    }
     piece->scale_a = (float)(frame->half[0] / inflate[0]);
     piece->scale_b = (float)(frame->half[1] / inflate[1]);
-    // Those two, the shifts and the products with them are rounded to float.
-    piece->rest_a =
-        up((double)piece->rest_a + 0x1p-20 * (double)(piece->scale_a + fabsf(piece->shift_a)));
-    piece->rest_b =
-        up((double)piece->rest_b + 0x1p-20 * (double)(piece->scale_b + fabsf(piece->shift_b)));
+    piece->shift_a = (float)frame->rest_shift[0];
+    piece->shift_b = (float)frame->rest_shift[1];
+    // Those are rounded to float, and so are the products with them.
+    piece->rest_a = up(frame->rest[0] + 0x1p-20 * (double)(piece->scale_a + fabsf(piece->shift_a)));
+    piece->rest_b = up(frame->rest[1] + 0x1p-20 * (double)(piece->scale_b + fabsf(piece->shift_b)));
 }

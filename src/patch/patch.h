@@ -62,8 +62,20 @@ typedef struct {
 
 typedef struct PatchSet PatchSet;
 
+// How far METHOD_QI prepares. ORDER patch_prepare (names in patchset.c, limits in piece.c)
+typedef enum {
+    PREPARE_FULL,  // as many sub-patches as make rays fast
+    PREPARE_LIGHT, // few: half of the memory
+    PREPARE_NONE,  // whole patches, as in the paper
+    PREPARE_COUNT,
+} PatchPrepare;
+
+const char *patch_prepare_name(PatchPrepare prepare);
+bool patch_prepare_parse(const char *name, PatchPrepare *prepare); // false: no such way
+
 typedef struct {
     PatchMethod method;
+    PatchPrepare prepare;
     int finer;        // facets: steps are so many more, flatness is a 4^finer-th
     double tolerance; // |hit - S| <= tolerance x the patch's diameter; default 1e-9
     // Not NULL: gives the tolerance of a patch in scene units instead; <= 0: the share as above.

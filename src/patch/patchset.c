@@ -54,6 +54,24 @@ bool patch_method_parse(const char *name, PatchMethod *method) {
     return false;
 }
 
+// ORDER patch_prepare
+static const char *const prepare_names[PREPARE_COUNT] = {"full", "light", "none"};
+
+const char *patch_prepare_name(PatchPrepare prepare) {
+    assert(prepare >= 0 && prepare < PREPARE_COUNT);
+    return prepare_names[prepare];
+}
+
+bool patch_prepare_parse(const char *name, PatchPrepare *prepare) {
+    for (int i = 0; i < PREPARE_COUNT; i++) {
+        if (strcmp(name, prepare_names[i]) == 0) {
+            *prepare = (PatchPrepare)i;
+            return true;
+        }
+    }
+    return false;
+}
+
 PatchSetOptions patchset_options_default(void) {
     return (PatchSetOptions){.method = METHOD_QI, .tolerance = 1e-9};
 }
@@ -126,7 +144,7 @@ static void commit_qi(PatchSet *set) {
     for (size_t i = 0; i < set->defs.count; i++)
         rational |= set->defs.items[i].weights != NULL;
     size_t count = set->defs.count, polynomial = rational ? part_rational(set) : count;
-    set->accel = accel_create(set->arena, set->defs.items, polynomial);
+    set->accel = accel_create(set->arena, set->defs.items, polynomial, set->options.prepare);
     if (rational)
         set->rational =
             rational_create(set->arena, set->defs.items + polynomial, count - polynomial);

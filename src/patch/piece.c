@@ -9,32 +9,39 @@
 #include <float.h>
 #include <string.h>
 
-// A patch is cut until the thickness of its pieces is this share of their size. The teapot: 2 % to
-// 4 % trace equally fast, 1 % takes four times the memory for nothing, and at 6 % rays at
-// silhouettes that qi_reduce must settle, 0.2 % of all before, begin to tell.
+// A patch is cut until the thickness of its pieces is this share of their size. The teapot: from 3
+// % to 1 % full and scattered views gain a tenth, for twice the memory.
 static const double SHARE = 0.03;
 // And until its parameters run as evenly as this (the whole being 2).
 static const double EVEN = 0.5;
 
-enum {
-    MAX_DEPTH = 20,         // halvings, u and v together
-    PIECES_A_PATCH = 4096,  // more are not worth their memory
-    PIECES_IN_ALL = 1 << 20 // about 250 MB; many patches are cut more coarsely
-};
+// Halvings, u and v together.
+enum { MAX_DEPTH = 20, FEW = 64 };
+
+// How far to go, by --prepare: pieces a patch and pieces in all, of about 500 bytes each. The patch
+// itself is 1,000 bytes.
+// ORDER patch_prepare
+static const struct { size_t a_patch, in_all; } limits[] = {{4096, 2000000}, {32, 1000000}, {1, 1}};
 
 typedef struct {
-    Piece piece;
-    PieceFrame frame;
-    Box box; // about the patch's center, scene units
+    BezierRect rect;
+    uint32_t patch;
+    double badness; // how much thicker or less even than it should be
 } Cut;
+
+typedef struct {
+    ARRAY(Cut) cuts;
+    ARRAY(Box) boxes; // scene units
+} CutList;
 
 typedef struct {
     const AccelPatch *patch;
     uint32_t number;
+    Bezier whole; // about the patch's center
     double share, size;
     double rounding; // bezier_rounding() of the patch about its center
-    size_t limit;
-    ARRAY(Cut) cuts;
+    size_t limit, first;
+    CutList *out;
 } Cutter;
 
 // ---- Evaluation
@@ -64,20 +71,20 @@ static void weights(int n, double t, double *w, double *dw) {
     }
 }
 
-// Points as [column][row][x y z 0]: loops over adjacent numbers, which become vector code.
+// Points as [column][row][x y z]: loops over adjacent numbers, which become vector code.
 static void eval_cubic(const double *p, double u, double v, Vec3 out[3]) {
-    double wu[4], du[4], wv[4], dv[4], row[16], slope[16], s[4], su[4], sv[4];
+    double wu[4], du[4], wv[4], dv[4], row[12], slope[12], s[3], su[3], sv[3];
     weights_cubic(u, wu, du);
     weights_cubic(v, wv, dv);
-    for (int k = 0; k < 16; k++) {
-        row[k] = wv[0] * p[k] + wv[1] * p[16 + k] + wv[2] * p[32 + k] + wv[3] * p[48 + k];
-        slope[k] = dv[0] * p[k] + dv[1] * p[16 + k] + dv[2] * p[32 + k] + dv[3] * p[48 + k];
+    for (int k = 0; k < 12; k++) {
+        row[k] = wv[0] * p[k] + wv[1] * p[12 + k] + wv[2] * p[24 + k] + wv[3] * p[36 + k];
+        slope[k] = dv[0] * p[k] + dv[1] * p[12 + k] + dv[2] * p[24 + k] + dv[3] * p[36 + k];
     }
-    for (int k = 0; k < 4; k++) {
-        s[k] = wu[0] * row[k] + wu[1] * row[4 + k] + wu[2] * row[8 + k] + wu[3] * row[12 + k];
-        su[k] = du[0] * row[k] + du[1] * row[4 + k] + du[2] * row[8 + k] + du[3] * row[12 + k];
+    for (int k = 0; k < 3; k++) {
+        s[k] = wu[0] * row[k] + wu[1] * row[3 + k] + wu[2] * row[6 + k] + wu[3] * row[9 + k];
+        su[k] = du[0] * row[k] + du[1] * row[3 + k] + du[2] * row[6 + k] + du[3] * row[9 + k];
         sv[k] =
-            wu[0] * slope[k] + wu[1] * slope[4 + k] + wu[2] * slope[8 + k] + wu[3] * slope[12 + k];
+            wu[0] * slope[k] + wu[1] * slope[3 + k] + wu[2] * slope[6 + k] + wu[3] * slope[9 + k];
     }
     out[0] = vec3(s[0], s[1], s[2]);
     out[1] = vec3(su[0], su[1], su[2]);
@@ -116,6 +123,62 @@ void piece_eval(const AccelPatch *patch, double u, double v, Vec3 out[3]) {
 
 // ---- Cutting
 
+static double larger(double a, double b) { return a > b ? a : b; }
+
+static void patch_about_center(const AccelPatch *patch, Bezier *out) {
+    const PatchDef *def = patch->def;
+    out->du = (int)def->degree_u;
+    out->dv = (int)def->degree_v;
+    for (int i = 0; i < bezier_count(out); i++)
+        out->p[i] = vec_sub(def->points[i], patch->center);
+}
+
+// Blossom weights of the part [a,b] of a cubic: out control point k is the sum of w[k][i] p_i. All
+// are positive and carry less than 8 roundings.
+static void part_weights(double a, double b, double w[4][4]) {
+    for (int k = 0; k < 4; k++) {
+        double row[4] = {1.0, 0.0, 0.0, 0.0};
+        for (int n = 0; n < 3; n++) {
+            double t = n < k ? b : a, s = 1.0 - t;
+            for (int i = n + 1; i > 0; i--)
+                row[i] = row[i] * s + row[i - 1] * t;
+            row[0] *= s;
+        }
+        for (int i = 0; i < 4; i++)
+            w[k][i] = row[i];
+    }
+}
+
+// As bezier_restrict, faster for cubics, and within net_rounding: two sums of four products with
+// such weights err by less than 24 roundings of the largest coordinate.
+static void piece_part(const Bezier *whole, BezierRect rect, Bezier *out) {
+    if (whole->du != 3 || whole->dv != 3) {
+        bezier_restrict(whole, rect, out);
+        return;
+    }
+    double wu[4][4], wv[4][4];
+    Vec3 half[16];
+    part_weights(rect.u0, rect.u1, wu);
+    part_weights(rect.v0, rect.v1, wv);
+    for (int k = 0; k < 4; k++) {
+        for (int j = 0; j < 4; j++) {
+            Vec3 sum = vec_scale(whole->p[j], wu[k][0]);
+            for (int i = 1; i < 4; i++)
+                sum = vec_madd(sum, wu[k][i], whole->p[4 * i + j]);
+            half[4 * k + j] = sum;
+        }
+    }
+    out->du = out->dv = 3;
+    for (int k = 0; k < 4; k++) {
+        for (int m = 0; m < 4; m++) {
+            Vec3 sum = vec_scale(half[4 * k], wv[m][0]);
+            for (int j = 1; j < 4; j++)
+                sum = vec_madd(sum, wv[m][j], half[4 * k + j]);
+            out->p[4 * k + m] = sum;
+        }
+    }
+}
+
 // Second differences of a net are derivatives of the surface: at most these lengths.
 typedef struct {
     double uu, uv, vv;
@@ -145,7 +208,7 @@ static Bends bends_of(const Bezier *s) {
 
 // A net halved MAX_DEPTH times is off by MAX_DEPTH (du + dv) 2^-53 of the largest coordinate, one
 // for each midpoint on the way. That is less than 7 bezier_rounding(); one more is for the QI net.
-static double net_rounding(const Cutter *k) { return 8.0 * k->rounding; }
+static double net_rounding(const Bezier *whole) { return 8.0 * bezier_rounding(whole); }
 
 // Upwards, with room for the rounding of differences of points that are off by `error`, and for
 // PIECE_MARGIN = m: outside of [0,1] by m the Bernstein weights' absolute values sum up to
@@ -155,32 +218,20 @@ static float bound_up(double bound, double error) {
     return up < (double)FLT_MAX ? (float)up : INFINITY;
 }
 
-// The piece's box about the patch's center: of the control points, and of the net with the QI
-// bound.
-static Box piece_box(const Cutter *k, const Bezier *s) {
-    double error = net_rounding(k);
-    Bezier net;
-    quasi_net(s, &net);
-    Vec3 slack = vec3(error, error, error), e = vec_add(quasi_deviation_axes(s), slack);
-    Box hull = bezier_bounds(s), thick = bezier_bounds(&net);
-    return (Box){vec_max(vec_sub(hull.low, slack), vec_sub(thick.low, e)),
-                 vec_min(vec_add(hull.high, slack), vec_add(thick.high, e))};
-}
-
-// The rest of what is to be known of a piece.
-static void complete(const Cutter *k, const Bezier *s, BezierRect rect, Cut *out) {
-    double error = 8.0 * net_rounding(k); // four points, in length
+// What is to be known of a piece besides its frame.
+static void complete(const Bezier *s, double net_error, BezierRect rect, uint32_t mask,
+                     uint32_t patch, Piece *out) {
+    double error = 8.0 * net_error; // four points, in length
     int du = s->du, dv = s->dv;
     double width = rect.u1 - rect.u0, height = rect.v1 - rect.v0;
     double uu = 1.0 / (width * width), uv = 1.0 / (width * height), vv = 1.0 / (height * height);
     Bends bends = bends_of(s);
-    out->box = piece_box(k, s);
-    out->piece.rect = rect;
-    out->piece.muu = bound_up(bends.uu * uu, error * du * du * uu);
-    out->piece.muv = bound_up(bends.uv * uv, error * du * dv * uv);
-    out->piece.mvv = bound_up(bends.vv * vv, error * dv * dv * vv);
-    out->piece.patch = k->number;
-    out->piece.mask = k->patch->def->mask;
+    out->rect = rect;
+    out->muu = bound_up(bends.uu * uu, error * du * du * uu);
+    out->muv = bound_up(bends.uv * uv, error * du * dv * uv);
+    out->mvv = bound_up(bends.vv * vv, error * dv * dv * vv);
+    out->patch = patch;
+    out->mask = mask;
 }
 
 // Length of a mean of opposite sides.
@@ -201,6 +252,13 @@ static bool cut_across_u(const Bezier *s) {
     if (2.0 * vec_length(twist) > fmax(bends.uu, bends.vv))
         return mean_side(s, true) > mean_side(s, false);
     return bends.uu > bends.vv;
+}
+
+static void halve_rect(bool across_u, BezierRect *low, BezierRect *high) {
+    if (across_u)
+        low->u1 = high->u0 = 0.5 * (low->u0 + low->u1);
+    else
+        low->v1 = high->v0 = 0.5 * (low->v0 + low->v1);
 }
 
 // Both halves of n + 1 points, `step` apart, by midpoints.
@@ -229,95 +287,144 @@ static void halve(const Bezier *s, bool across_u, Bezier *low, Bezier *high) {
     }
 }
 
-static void cut_rect(Cutter *k, const Bezier *s, BezierRect rect, int depth) {
-    Cut cut;
-    frame_make(s, net_rounding(k), &cut.frame, &cut.piece);
+// How much thicker than its share, or less even, a piece is: at most 1 is good enough.
+static double judge(const Cutter *k, const Bezier *s) {
+    PieceFrame frame;
+    frame_measure(s, k->rounding, &frame);
     // Size is not taken below a sixteenth of the patch's: near a collapsed edge pieces stay wide
     // for their length however often they are cut.
-    double size = fmax(fmax(mean_side(s, true), mean_side(s, false)), k->size / 16.0);
+    double size = larger(larger(mean_side(s, true), mean_side(s, false)), k->size / 16.0);
     // Thickness of rounding alone does not go away. A flat piece may still be bent in its plane.
-    double uneven = fmax((double)cut.piece.rest_a, (double)cut.piece.rest_b);
-    bool even = !cut.frame.regular || uneven <= EVEN * k->share / SHARE;
-    double thin = fmax(k->share * size, fmax(20.0 * k->rounding, FRAME_LEAST));
-    bool enough = cut.frame.half[2] <= thin && (even || size <= k->size / 16.0);
-    if (enough || depth == MAX_DEPTH || k->cuts.count > k->limit) {
-        complete(k, s, rect, &cut);
-        array_push(&k->cuts, cut);
+    double thin = larger(k->share * size, larger(4.0 * k->rounding, FRAME_LEAST));
+    double badness = frame.half[2] / thin;
+    if (frame.regular && size > k->size / 16.0)
+        badness = larger(badness, larger(frame.rest[0], frame.rest[1]) * SHARE / (EVEN * k->share));
+    return badness;
+}
+
+static void add_cut(Cutter *k, const Bezier *s, BezierRect rect, double badness) {
+    Box box = frame_box(s, k->rounding);
+    Vec3 center = k->patch->center;
+    array_push(&k->out->cuts, ((Cut){rect, k->number, badness}));
+    array_push(&k->out->boxes, ((Box){vec_add(box.low, center), vec_add(box.high, center)}));
+}
+
+static void cut_rect(Cutter *k, const Bezier *s, BezierRect rect, int depth) {
+    double badness = judge(k, s);
+    if (badness <= 1.0 || depth == MAX_DEPTH || k->out->cuts.count - k->first > k->limit) {
+        add_cut(k, s, rect, badness);
         return;
     }
     BezierRect low = rect, high = rect;
     bool across_u = cut_across_u(s);
-    if (across_u)
-        low.u1 = high.u0 = 0.5 * (rect.u0 + rect.u1);
-    else
-        low.v1 = high.v0 = 0.5 * (rect.v0 + rect.v1);
+    halve_rect(across_u, &low, &high);
     Bezier half[2];
     halve(s, across_u, &half[0], &half[1]);
     cut_rect(k, &half[0], low, depth + 1);
     cut_rect(k, &half[1], high, depth + 1);
 }
 
+static void forget(Cutter *k) { k->out->cuts.count = k->out->boxes.count = k->first; }
+
+// Few pieces: cuts the worst again and again.
+static void cut_worst(Cutter *k) {
+    size_t first = k->first;
+    add_cut(k, &k->whole, bezier_whole(), judge(k, &k->whole));
+    while (k->out->cuts.count - first < k->limit) {
+        size_t worst = first;
+        for (size_t i = first; i < k->out->cuts.count; i++) {
+            if (k->out->cuts.items[i].badness > k->out->cuts.items[worst].badness)
+                worst = i;
+        }
+        Cut cut = k->out->cuts.items[worst];
+        if (!(cut.badness > 1.0))
+            break;
+        Bezier part, half[2];
+        BezierRect low = cut.rect, high = cut.rect;
+        piece_part(&k->whole, cut.rect, &part);
+        bool across_u = cut_across_u(&part);
+        halve_rect(across_u, &low, &high);
+        halve(&part, across_u, &half[0], &half[1]);
+        add_cut(k, &half[0], low, judge(k, &half[0]));
+        size_t last = k->out->cuts.count - 1;
+        k->out->cuts.items[worst] = k->out->cuts.items[last];
+        k->out->boxes.items[worst] = k->out->boxes.items[last];
+        k->out->cuts.count = k->out->boxes.count = last;
+        add_cut(k, &half[1], high, judge(k, &half[1]));
+    }
+}
+
 static void cut_patch(Cutter *k) {
-    const PatchDef *def = k->patch->def;
-    Bezier whole;
-    whole.du = (int)def->degree_u;
-    whole.dv = (int)def->degree_v;
-    for (int i = 0; i < bezier_count(&whole); i++)
-        whole.p[i] = vec_sub(def->points[i], k->patch->center);
-    k->rounding = bezier_rounding(&whole);
-    k->size = bezier_diameter(&whole);
-    cut_rect(k, &whole, bezier_whole(), 0);
-    while (k->cuts.count > k->limit) {
-        k->cuts.count = 0;
+    patch_about_center(k->patch, &k->whole);
+    k->rounding = net_rounding(&k->whole);
+    k->size = bezier_diameter(&k->whole);
+    k->share = SHARE;
+    k->first = k->out->cuts.count;
+    if (k->limit <= FEW) {
+        cut_worst(k);
+        return;
+    }
+    cut_rect(k, &k->whole, bezier_whole(), 0);
+    while (k->out->cuts.count - k->first > k->limit) {
+        forget(k);
         k->share *= 1.5;
-        cut_rect(k, &whole, bezier_whole(), 0);
+        cut_rect(k, &k->whole, bezier_whole(), 0);
     }
 }
 
 // ---- Layout
 
-static AccelPatch make_patch(Arena *arena, const PatchDef *def) {
+static void make_patch(const PatchDef *def, double *local, AccelPatch *out) {
     int rows = (int)def->degree_u + 1, columns = (int)def->degree_v + 1;
     Box box = box_empty();
     for (int i = 0; i < rows * columns; i++)
         box = box_extend(box, def->points[i]);
-    AccelPatch patch = {.def = def,
+    *out = (AccelPatch){.def = def,
                         .center = vec_add(vec_scale(box.low, 0.5), vec_scale(box.high, 0.5)),
+                        .local = local,
                         .cubic = rows == 4 && columns == 4,
                         .tolerance = def->tolerance};
-    size_t count = patch.cubic ? 64 : (size_t)(3 * rows * columns);
-    double *local = ARENA_ARRAY(arena, double, count), reach = 0.0;
+    double reach = 0.0;
     for (int i = 0; i < rows; i++) {
         for (int j = 0; j < columns; j++) {
-            Vec3 q = vec_sub(def->points[i * columns + j], patch.center);
+            Vec3 q = vec_sub(def->points[i * columns + j], out->center);
             for (int axis = 0; axis < 3; axis++) {
-                int at = patch.cubic ? (4 * j + i) * 4 + axis : (axis * rows + i) * columns + j;
+                int at = out->cubic ? (4 * j + i) * 3 + axis : (axis * rows + i) * columns + j;
                 local[at] = vec_get(q, axis);
-                reach = fmax(reach, fabs(local[at]));
+                reach = larger(reach, fabs(local[at]));
             }
         }
     }
-    patch.local = local;
     // The weights are positive and sum up to 1; each carries at most 2 n roundings, the double sum
     // 2 (du + dv) more: 4 (du + dv) in all, and one for the points less the center.
-    patch.rounding = reach * 0x1p-53 * (4.0 * (def->degree_u + def->degree_v) + 1.0);
-    return patch;
+    out->rounding = reach * 0x1p-53 * (4.0 * (def->degree_u + def->degree_v) + 1.0);
 }
 
-static Box place_box(const AccelPatch *patch, const Cut *cut) {
-    return (Box){vec_add(cut->box.low, patch->center), vec_add(cut->box.high, patch->center)};
+static void make_patches(Arena *arena, Accel *accel) {
+    size_t *first = ARENA_ARRAY(arena, size_t, accel->patch_count), sum = 0;
+    for (size_t i = 0; i < accel->patch_count; i++) {
+        const PatchDef *def = &accel->defs[i];
+        first[i] = sum;
+        sum += 3 * (size_t)(def->degree_u + 1) * (def->degree_v + 1);
+    }
+    // One more, since a point is read as four numbers.
+    double *local = ARENA_ARRAY(arena, double, sum + 1);
+    accel->patches = ARENA_ARRAY(arena, AccelPatch, accel->patch_count);
+#pragma omp parallel for schedule(static)
+    for (size_t i = 0; i < accel->patch_count; i++)
+        make_patch(&accel->defs[i], local + first[i], &accel->patches[i]);
 }
 
-static void make_block(const Accel *accel, const Cut *cuts, uint32_t leaf, Block *block) {
+// cuts and boxes: of the whole set, not in the order of the tree.
+static void make_block(const Accel *accel, const Cut *cuts, const Box *boxes, uint32_t leaf,
+                       Block *block) {
     const Tree *tree = &accel->tree;
     block->first = tree->leaf_first[leaf];
     block->count = tree->leaf_first[leaf + 1] - block->first;
     assert(block->count >= 1 && block->count <= BLOCK_LANES);
     Box box = box_empty();
-    for (uint32_t i = 0; i < block->count; i++) {
-        const Cut *cut = &cuts[tree->order[block->first + i]];
-        box = box_union(box, place_box(&accel->patches[cut->piece.patch], cut));
-    }
+    for (uint32_t i = 0; i < block->count; i++)
+        box = box_union(box, boxes[tree->order[block->first + i]]);
     double square = 0.0;
     for (int axis = 0; axis < 3; axis++) {
         double low = (vec_get(box.low, axis) - vec_get(tree->center, axis)) * tree->scale;
@@ -328,57 +435,75 @@ static void make_block(const Accel *accel, const Cut *cuts, uint32_t leaf, Block
     // The tree's boxes are larger by TREE_PAD on each side, and rays come within rounding of them.
     double reach = sqrt(square) + 8.0 * (double)TREE_PAD;
     for (uint32_t i = 0; i < BLOCK_LANES; i++) {
-        if (i < block->count) {
-            const Cut *cut = &cuts[tree->order[block->first + i]];
-            frame_to_lane(&cut->frame, tree, accel->patches[cut->piece.patch].center, reach, block,
-                          (int)i, &accel->pieces[block->first + i]);
-        } else {
-            block->shift[0][i] = 2.0f; // beside the box of every ray: all axes are 0
-            block->shift[1][i] = block->shift[2][i] = 2.0f;
+        if (i >= block->count) {
+            // Beside the box of every ray: all axes are 0.
+            block->shift[0][i] = block->shift[1][i] = block->shift[2][i] = 2.0f;
+            continue;
         }
+        const Cut *cut = &cuts[tree->order[block->first + i]];
+        const AccelPatch *patch = &accel->patches[cut->patch];
+        Piece *piece = &accel->pieces[block->first + i];
+        Bezier whole, part;
+        PieceFrame frame;
+        patch_about_center(patch, &whole);
+        double error = net_rounding(&whole);
+        piece_part(&whole, cut->rect, &part);
+        frame_measure(&part, error, &frame);
+        complete(&part, error, cut->rect, patch->def->mask, cut->patch, piece);
+        frame_to_lane(&frame, &part, tree, patch->center, reach, block, (int)i, piece);
     }
 }
 
-void pieces_build(Arena *arena, const PatchDef *defs, size_t count, Accel *accel) {
+static size_t piece_limit(PatchPrepare prepare, size_t patches) {
+    size_t limit = limits[prepare].in_all / (patches + 1) + 1;
+    return limit < limits[prepare].a_patch ? limit : limits[prepare].a_patch;
+}
+
+// Cuts all patches: *cuts and *boxes in the order of the patches, whatever the threads did.
+static void cut_all(const Accel *accel, size_t limit, CutList *all) {
+    enum { GROUP = 64 }; // patches of one list
+    size_t groups = (accel->patch_count + GROUP - 1) / GROUP;
+    ARRAY(CutList) lists = {0};
+    for (size_t g = 0; g < groups; g++)
+        array_push(&lists, (CutList){0});
+#pragma omp parallel for schedule(dynamic, 1)
+    for (size_t g = 0; g < groups; g++) {
+        size_t end = (g + 1) * GROUP < accel->patch_count ? (g + 1) * GROUP : accel->patch_count;
+        for (size_t i = g * GROUP; i < end; i++) {
+            Cutter cutter;
+            cutter.patch = &accel->patches[i];
+            cutter.number = (uint32_t)i;
+            cutter.limit = limit;
+            cutter.out = &lists.items[g];
+            cut_patch(&cutter);
+        }
+    }
+    for (size_t g = 0; g < groups; g++) {
+        for (size_t c = 0; c < lists.items[g].cuts.count; c++) {
+            array_push(&all->cuts, lists.items[g].cuts.items[c]);
+            array_push(&all->boxes, lists.items[g].boxes.items[c]);
+        }
+        array_free(&lists.items[g].cuts);
+        array_free(&lists.items[g].boxes);
+    }
+    array_free(&lists);
+}
+
+void pieces_build(Arena *arena, const PatchDef *defs, size_t count, PatchPrepare prepare,
+                  Accel *accel) {
     accel->defs = defs;
     accel->patch_count = count;
-    accel->patches = ARENA_ARRAY(arena, AccelPatch, count);
-    for (size_t i = 0; i < count; i++)
-        accel->patches[i] = make_patch(arena, &defs[i]);
-    size_t limit = PIECES_IN_ALL / (count + 1) + 1;
-    limit = limit > PIECES_A_PATCH ? PIECES_A_PATCH : limit;
+    make_patches(arena, accel);
+    CutList all = {0};
+    cut_all(accel, piece_limit(prepare, count), &all);
+    tree_build(arena, all.boxes.items, (uint32_t)all.boxes.count, BLOCK_LANES, &accel->tree);
 
-    // Cut the patches, each into a list of its own.
-    ARRAY(Cutter) cutters = {0};
-    for (size_t i = 0; i < count; i++)
-        array_push(&cutters, ((Cutter){.patch = &accel->patches[i],
-                                       .number = (uint32_t)i,
-                                       .share = SHARE,
-                                       .limit = limit}));
-#pragma omp parallel for schedule(dynamic, 4)
-    for (size_t i = 0; i < count; i++)
-        cut_patch(&cutters.items[i]);
-
-    // One list in the order of the patches, whatever the threads did.
-    ARRAY(Cut) cuts = {0};
-    ARRAY(Box) boxes = {0};
-    for (size_t i = 0; i < count; i++) {
-        for (size_t c = 0; c < cutters.items[i].cuts.count; c++) {
-            array_push(&cuts, cutters.items[i].cuts.items[c]);
-            array_push(&boxes, place_box(&accel->patches[i], &cuts.items[cuts.count - 1]));
-        }
-        array_free(&cutters.items[i].cuts);
-    }
-    array_free(&cutters);
-    tree_build(arena, boxes.items, (uint32_t)boxes.count, BLOCK_LANES, &accel->tree);
-    array_free(&boxes);
-
-    accel->piece_count = cuts.count;
-    accel->pieces = ARENA_ARRAY(arena, Piece, cuts.count);
-    for (size_t i = 0; i < cuts.count; i++)
-        accel->pieces[i] = cuts.items[accel->tree.order[i]].piece;
+    accel->piece_count = all.cuts.count;
+    accel->pieces = ARENA_ARRAY(arena, Piece, accel->piece_count);
     accel->blocks = ARENA_ARRAY(arena, Block, accel->tree.leaf_count);
+#pragma omp parallel for schedule(dynamic, 64)
     for (uint32_t leaf = 0; leaf < accel->tree.leaf_count; leaf++)
-        make_block(accel, cuts.items, leaf, &accel->blocks[leaf]);
-    array_free(&cuts);
+        make_block(accel, all.cuts.items, all.boxes.items, leaf, &accel->blocks[leaf]);
+    array_free(&all.cuts);
+    array_free(&all.boxes);
 }

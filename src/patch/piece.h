@@ -24,7 +24,7 @@ enum { BLOCK_LANES = 8 };
 typedef struct {
     const PatchDef *def;
     Vec3 center;
-    const double *local; // points less center; cubic: [column][row][4], else [3][row][column]
+    const double *local; // points less center; cubic: [column][row][3], else [3][row][column]
     bool cubic;          // bi-degree (3,3)
     double rounding;     // of a coordinate of S; of its derivatives: times twice the degree
     double tolerance;    // scene units
@@ -69,7 +69,8 @@ typedef struct Accel {
 } Accel;
 
 // Cuts the patches (in parallel) and builds the tree. defs and their points must stay.
-void pieces_build(Arena *arena, const PatchDef *defs, size_t count, Accel *accel);
+void pieces_build(Arena *arena, const PatchDef *defs, size_t count, PatchPrepare prepare,
+                  Accel *accel);
 
 // S, dS/du and dS/dv at (u,v) in [0,1]^2, about the patch's center.
 void piece_eval(const AccelPatch *patch, double u, double v, Vec3 out[3]);
@@ -82,18 +83,20 @@ void piece_eval(const AccelPatch *patch, double u, double v, Vec3 out[3]);
 // A frame about the patch's center, scene units: row . X + shift in [-1,1] for each row.
 typedef struct {
     double row[3][3], shift[3];
-    double half[3]; // the box's half sizes before it was made 1
-    Vec3 middle;    // and its middle, about S at the middle of the parameters
-    double steep[2];
+    double half[3];                // the box's half sizes before it was made 1
+    double steep[2];               // as in Block
+    double rest[2], rest_shift[2]; // as in Piece, for a = half x + rest_shift
     bool regular; // else the tangents do not span a plane, and only the box is of use
 } PieceFrame;
 
-// Of the part of a patch over `rect`, whose control points (about the patch's center) and their net
-// err by `error` in each coordinate. Fills what belongs to the frame in *piece.
-void frame_make(const Bezier *part, double error, PieceFrame *frame, Piece *piece);
-// Puts a frame into a lane, and its units into the piece. reach: no point of the block's box, nor a
-// ray's origin in its test, is farther from the block's center than that, tree units.
-void frame_to_lane(const PieceFrame *frame, const Tree *tree, Vec3 patch_center, double reach,
-                   Block *block, int lane, Piece *piece);
+// Of a part of a patch whose control points, about the patch's center, err by `error` in each
+// coordinate.
+void frame_measure(const Bezier *part, double error, PieceFrame *frame);
+// A box around the part.
+Box frame_box(const Bezier *part, double error);
+// Puts a frame into a lane, and what belongs to it into the piece. reach: no point of the block's
+// box, nor a ray's origin in its test, is farther from the block's center than that, tree units.
+void frame_to_lane(const PieceFrame *frame, const Bezier *part, const Tree *tree, Vec3 patch_center,
+                   double reach, Block *block, int lane, Piece *piece);
 
 #endif

@@ -9,6 +9,11 @@
 #include <string.h>
 
 enum { BINS = 16 };
+#ifdef HOSTILE
+enum { SERIAL = 20 };
+#else
+enum { SERIAL = 20000 }; // a range of no more is not worth another thread
+#endif
 
 typedef struct {
     Box box;              // of the members
@@ -165,10 +170,11 @@ static void sort_parts(Range *part, int count) {
     }
 }
 
-static uint32_t make_node(Builder *b, const Range *range, int depth) {
-    assert(depth < TREE_MAX_DEPTH);
-    Range part[TREE_WIDTH] = {*range}, left, right;
+// Splits a range into up to TREE_WIDTH parts, the largest first; returns their number.
+static int split_range(const Builder *b, const Range *range, int depth, Range part[TREE_WIDTH]) {
+    Range left, right;
     int count = 1;
+    part[0] = *range;
     while (count < TREE_WIDTH) {
         // Split the largest part that can be split.
         int largest = -1;
@@ -186,24 +192,80 @@ static uint32_t make_node(Builder *b, const Range *range, int depth) {
             part[largest].final = true;
         }
     }
+    return count;
+}
+
+static TreeNode empty_node(void) {
+    TreeNode node;
+    memset(&node, 0, sizeof node);
+    for (int i = 0; i < TREE_WIDTH; i++) {
+        for (int axis = 0; axis < 3; axis++) {
+            node.low[axis][i] = 4.0f; // a ray is cut to where |x| < 4, so this box is never met
+            node.high[axis][i] = -4.0f;
+        }
+        node.child[i] = TREE_NONE;
+    }
+    return node;
+}
+
+static uint32_t make_node(Builder *b, const Range *range, int depth);
+
+static uint32_t make_child(Builder *b, const Range *part, int depth) {
+    return part->final ? make_leaf(b, part) : make_node(b, part, depth);
+}
+
+// Appends what another builder made of some part; returns its root in this one.
+static uint32_t append(Builder *b, const Builder *from, uint32_t root) {
+    uint32_t nodes = (uint32_t)b->nodes.count, leaves = (uint32_t)b->leaf_first.count;
+    for (size_t i = 0; i < from->nodes.count; i++) {
+        TreeNode node = from->nodes.items[i];
+        for (int k = 0; k < TREE_WIDTH; k++) {
+            if (node.child[k] != TREE_NONE)
+                node.child[k] += node.child[k] & TREE_LEAF ? leaves : nodes;
+        }
+        array_push(&b->nodes, node);
+    }
+    for (size_t i = 0; i < from->leaf_first.count; i++)
+        array_push(&b->leaf_first, from->leaf_first.items[i]);
+    return root + (root & TREE_LEAF ? leaves : nodes);
+}
+
+// The parts of a large range, each by a task of its own. The result is what one thread would make.
+static void make_parts(Builder *b, const Range *part, int count, int depth, uint32_t *roots) {
+    Builder sub[TREE_WIDTH];
+    uint32_t root[TREE_WIDTH];
+    for (int i = 0; i < count; i++) {
+        sub[i] = *b;
+        memset(&sub[i].nodes, 0, sizeof sub[i].nodes);
+        memset(&sub[i].leaf_first, 0, sizeof sub[i].leaf_first);
+#pragma omp task shared(sub, root) firstprivate(i)
+        root[i] = make_child(&sub[i], &part[i], depth + 1);
+    }
+#pragma omp taskwait
+    for (int i = 0; i < count; i++) {
+        roots[i] = append(b, &sub[i], root[i]);
+        array_free(&sub[i].nodes);
+        array_free(&sub[i].leaf_first);
+    }
+}
+
+static uint32_t make_node(Builder *b, const Range *range, int depth) {
+    assert(depth < TREE_MAX_DEPTH);
+    Range part[TREE_WIDTH];
+    int count = split_range(b, range, depth, part);
     if (count == 1)
         return make_leaf(b, range);
     sort_parts(part, count);
-    TreeNode empty;
-    memset(&empty, 0, sizeof empty);
-    for (int i = 0; i < TREE_WIDTH; i++) {
-        for (int axis = 0; axis < 3; axis++) {
-            empty.low[axis][i] = 4.0f; // a ray is cut to where |x| < 4, so this box is never met
-            empty.high[axis][i] = -4.0f;
-        }
-        empty.child[i] = TREE_NONE;
+    array_push(&b->nodes, empty_node());
+    uint32_t node = (uint32_t)(b->nodes.count - 1), roots[TREE_WIDTH];
+    if (range->last - range->first > SERIAL) {
+        make_parts(b, part, count, depth, roots);
+    } else {
+        for (int i = 0; i < count; i++)
+            roots[i] = make_child(b, &part[i], depth + 1);
     }
-    array_push(&b->nodes, empty);
-    uint32_t node = (uint32_t)(b->nodes.count - 1);
-    for (int i = 0; i < count; i++) {
-        uint32_t child = part[i].final ? make_leaf(b, &part[i]) : make_node(b, &part[i], depth + 1);
-        set_child(&b->nodes.items[node], i, b->tree, &part[i].box, child);
-    }
+    for (int i = 0; i < count; i++)
+        set_child(&b->nodes.items[node], i, b->tree, &part[i].box, roots[i]);
     return node;
 }
 
@@ -237,6 +299,8 @@ void tree_build(Arena *arena, const Box *boxes, uint32_t count, uint32_t leaf_si
             tree->scale);
         tree->half = vec_add(
             half, vec3(4.0 * (double)TREE_PAD, 4.0 * (double)TREE_PAD, 4.0 * (double)TREE_PAD));
+#pragma omp parallel if (count > SERIAL)
+#pragma omp single
         tree->root = make_node(&b, &all, 0);
     }
     tree->node_count = (uint32_t)b.nodes.count;

@@ -231,6 +231,7 @@ static PatchSetOptions patch_options(const Scene *scene, const RenderOptions *o,
     }
     patches.method = o->method;
     patches.tolerance = o->tolerance;
+    patches.prepare = o->prepare;
     patches.finer = o->finer;
     return patches;
 }

@@ -95,6 +95,7 @@ static Scene *convert_source(Converter *cv, const Source *source) {
     if (cv->options->include_header)
         push_file(cv, source_open(cv, cv->options->include_header, FILE_INCLUDE, &(Loc){0}), NULL);
     parse_scene_statements(cv);
+    save_open_files(cv);
     if (!cv->version_set)
         note_at(&start_of_file,
                 "no #version: read as version 3.62 where the picture depends on it");

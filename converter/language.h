@@ -173,6 +173,7 @@ typedef struct {
 
 typedef struct UserFile {
     const char *name;
+    const Loc *loc;   // of the #fopen that made it
     TokenList tokens; // being read
     size_t at;
     bool writing;
@@ -248,6 +249,7 @@ void define_macro(Converter *cv, const Token *word);
 void call_macro(Converter *cv, const Token *name, const Macro *macro);
 void run_fopen(Converter *cv, const Token *word);
 void run_fclose(Converter *cv);
+void save_open_files(Converter *cv); // at the end of the scene
 void run_read(Converter *cv);
 void run_write(Converter *cv);
 const Source *written_source(Converter *cv, const char *name);

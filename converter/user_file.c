@@ -1,7 +1,14 @@
 // SPDX-License-Identifier: MIT
 // #fopen, #read, #write, #fclose (facts: sdl 3.5). Reading a scene must not write files: what is
-// written stays in memory, with a warning, and can be read or included again in the same run.
+// written stays in memory and can be read or included again in the same run. Below the folders of
+// --allow-write it becomes a file when it is closed; elsewhere there is a warning instead.
 #include "converter/language.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <limits.h>
+#include <stdlib.h>
+#include <unistd.h>
 
 #include <math.h>
 #include <stdio.h>
@@ -40,6 +47,61 @@ static void append_text(Converter *cv, UserFile *f, const char *text) {
     append_bytes(cv, f, text, strlen(text));
 }
 
+// Does the file's folder, with all links followed, lie in one that the user has opened?
+static bool may_write(Converter *cv, const char *name) {
+    const char *slash = strrchr(name, '/');
+    const char *folder =
+        slash ? arena_printf(cv->arena, "%.*s", (int)(slash - name + 1), name) : ".";
+    char where[PATH_MAX], allowed[PATH_MAX];
+    if (!realpath(folder, where))
+        return false;
+    for (size_t i = 0; i < cv->options->write_folder_count; i++) {
+        if (!realpath(cv->options->write_folders[i], allowed))
+            continue;
+        size_t length = strlen(allowed);
+        bool root = strcmp(allowed, "/") == 0;
+        if (root || (strncmp(where, allowed, length) == 0 &&
+                     (where[length] == '/' || where[length] == '\0')))
+            return true;
+    }
+    return false;
+}
+
+static bool put_bytes(int fd, const char *bytes, size_t count) {
+    while (count) {
+        ssize_t written = write(fd, bytes, count);
+        if (written < 0 && errno != EINTR)
+            return false;
+        if (written > 0) {
+            bytes += written;
+            count -= (size_t)written;
+        }
+    }
+    return true;
+}
+
+// The file as it stands in memory, if the user lets it be one. A link in its place is not followed.
+static void save_file(Converter *cv, UserFile *f) {
+    f->writing = false;
+    if (!may_write(cv, f->name))
+        return;
+    int fd = open(f->name, O_WRONLY | O_CREAT | O_TRUNC | O_NOFOLLOW | O_CLOEXEC, 0666);
+    bool done = fd >= 0 && put_bytes(fd, f->text, f->size);
+    int why = errno;
+    if (fd >= 0 && close(fd) != 0 && done) {
+        done = false;
+        why = errno;
+    }
+    if (!done)
+        die_at(f->loc, "Cannot write '%s': %s", f->name, strerror(why));
+}
+
+void save_open_files(Converter *cv) {
+    for (UserFile *f = cv->language->written; f; f = f->next)
+        if (f->writing)
+            save_file(cv, f);
+}
+
 // ---- #fopen, #fclose --------------------------------------------------------------------------
 
 static void open_for_reading(Converter *cv, UserFile *f, const Loc *loc) {
@@ -50,11 +112,13 @@ static void open_for_reading(Converter *cv, UserFile *f, const Loc *loc) {
 static UserFile *open_for_writing(Converter *cv, const char *name, bool append, const Loc *loc) {
     UserFile *f = find_written(cv, name);
     if (!f) {
-        warn_at(loc,
-                "'%s' is not written: reading a scene writes no files. What goes there is kept in "
-                "memory until the scene is read",
-                name);
+        if (!may_write(cv, name))
+            warn_at(loc,
+                    "'%s' is not written: a scene may only write below the folders of "
+                    "--allow-write. What goes there is kept in memory until the scene is read",
+                    name);
         f = ARENA_NEW(cv->arena, UserFile);
+        f->loc = arena_copy(cv->arena, loc, sizeof *loc);
         f->name = name;
         f->next = cv->language->written;
         cv->language->written = f;
@@ -108,6 +172,8 @@ void run_fclose(Converter *cv) {
         return;
     }
     symbol_remove(cv, expect_handle(cv, &f));
+    if (f->writing)
+        save_file(cv, f);
 }
 
 // ---- #read ------------------------------------------------------------------------------------

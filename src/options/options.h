@@ -88,6 +88,8 @@ typedef struct {
     double file_gamma; // 0: sRGB
     const char **library_paths;
     size_t library_path_count;
+    const char **write_folders; // --allow-write: where #write may make files
+    size_t write_folder_count;
     OptionDeclare *declares;
     size_t declare_count;
     double clock; // single precision, as POV-Ray has it

@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
+#include <sys/stat.h>
 
 // ---- values that are more than a number
 // -----------------------------------------------------------
@@ -142,16 +143,30 @@ static bool apply_declare(Parse *parse, const OptionRow *row, bool on, const cha
     return true;
 }
 
+static void add_path(Parse *parse, const char ***paths, size_t *count, const char *path) {
+    const char **grown = ARENA_ARRAY(parse->arena, const char *, *count + 1);
+    if (*count)
+        memcpy(grown, *paths, *count * sizeof *grown);
+    grown[(*count)++] = path;
+    *paths = grown;
+}
+
 static bool apply_library(Parse *parse, const OptionRow *row, bool on, const char *value) {
     (void)row, (void)on;
+    RenderOptions *o = parse->options;
     if (!*value)
         return complain(parse, "it needs a folder, as in +Linclude");
+    add_path(parse, &o->library_paths, &o->library_path_count, value);
+    return true;
+}
+
+static bool apply_allow_write(Parse *parse, const OptionRow *row, bool on, const char *value) {
+    (void)row, (void)on;
     RenderOptions *o = parse->options;
-    const char **grown = ARENA_ARRAY(parse->arena, const char *, o->library_path_count + 1);
-    if (o->library_path_count)
-        memcpy(grown, o->library_paths, o->library_path_count * sizeof *grown);
-    grown[o->library_path_count++] = value;
-    o->library_paths = grown;
+    struct stat st;
+    if (stat(value, &st) != 0 || !S_ISDIR(st.st_mode))
+        return complain(parse, "there is no such folder");
+    add_path(parse, &o->write_folders, &o->write_folder_count, value);
     return true;
 }
 
@@ -536,6 +551,9 @@ const OptionRow option_rows[] = {
      .help = "likewise: without a window nothing waits"},
     {OPTION_FLAG, NULL, NULL, "strict", NULL, IN_ALL, FIELD(strict),
      .help = "what is not modelled is an error instead of a warning"},
+    {OPTION_SPECIAL, NULL, NULL, "allow-write", "folder", IN_ALL, .apply = apply_allow_write,
+     .help = "files that the scene writes (#fopen, #write) may be made in this folder and those "
+             "below it; without it a scene writes no files; may be repeated"},
     {OPTION_SPECIAL, NULL, NULL, "limit", "name=n", IN_ALL, .apply = apply_limit,
      .help = "the most that reading a scene may take: calls, elements (of arrays), includes, "
              "megabytes, nesting, objects, seconds, string (bytes), tokens"},

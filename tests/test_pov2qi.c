@@ -164,13 +164,108 @@ static void follows_copied_links(void **state) {
     assert_non_null(strstr(log, "loop.inc:1:1: error:"));
 }
 
+static const char WRITER[] = HEAD
+    "#fopen W \"a.txt\" write #write (W, 1, \",\", <1,2.5,3>, \"x\\ty\\n\", pi, 1e20) #fclose W\n"
+    "#fopen W \"a.txt\" append #write (W, \"more\\n\") #fclose W\n"
+    "#fopen B \"b.bin\" write #write (B, sint8 -3, 300 uint16be 1,2 sint32le <1,-2,3.5>) #fclose "
+    "B\n"
+    "#fopen O \"open.txt\" write #write (O, \"never closed\")\n"
+    "#fopen R \"a.txt\" read #read (R, One) #fclose R #debug concat(str(One, 0, 0), \"\\n\")\n"
+    "sphere { 0, One }\n";
+
+// Without --allow-write a scene writes nothing, and is told so; with it the files are POV-Ray's.
+static void writes_where_it_may(void **state) {
+    (void)state;
+    const char *log;
+    write_scene("a.pov", WRITER);
+    assert_int_equal(pov2qi(&log, "--check a.pov"), 0);
+    assert_int_equal(count_of(log, "is not written"), 3);
+    assert_non_null(strstr(log, "a.pov:2:2: warning: 'a.txt' is not written"));
+    assert_non_null(strstr(log, "\n1\n")); // what was written could be read again
+    assert_int_not_equal(pov2qi(NULL, "--version >/dev/null; ls *.txt b.bin"), 0);
+    assert_int_equal(pov2qi(&log, "--check a.pov --allow-write ."), 0);
+    assert_string_equal(log, "1\n");
+    if (run_command(NULL, "command -v povray") != 0) {
+        print_message("skipped: povray is missing\n");
+        skip();
+    }
+    assert_int_equal(pov2qi(&log, "--version >/dev/null; mkdir theirs && cd theirs && "
+                                  "povray +I../a.pov +W4 +H3 -D -F"),
+                     0);
+    static const char *const files[] = {"a.txt", "b.bin", "open.txt"};
+    for (size_t i = 0; i < sizeof files / sizeof *files; i++)
+        if (run_command(&log, "cd '%s' && cmp %s theirs/%s", scratch_folder(), files[i],
+                        files[i]) != 0)
+            fail_msg("%s", log);
+}
+
+// Not above the folder, not beside it under a longer name, not through a link.
+static void stays_in_its_folder(void **state) {
+    (void)state;
+    const char *log;
+    static const char *const names[] = {"../up.txt",    "in/../../up.txt",
+                                        "inside/a.txt", "link.txt",
+                                        "way/a.txt",    "/tmp/qipov-must-not-be-there.txt"};
+    assert_int_equal(pov2qi(NULL, "--version >/dev/null; mkdir -p in inside out; cd in; "
+                                  "ln -sf ../out/target.txt link.txt; ln -sfn ../out way"),
+                     0);
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        char text[512];
+        snprintf(text, sizeof text, HEAD "#fopen W \"%s%s\" write #write (W, 1) #fclose W\n",
+                 names[i][0] == '/' || strncmp(names[i], "in", 2) == 0 ? "" : "in/", names[i]);
+        write_scene("a.pov", text);
+        int status = pov2qi(&log, "--check a.pov --allow-write in");
+        bool link = strcmp(names[i], "link.txt") == 0;
+        assert_int_equal(status, link ? 1 : 0);
+        assert_non_null(
+            strstr(log, link ? "a.pov:2:2: error: Cannot write 'in/link.txt'" : "is not written"));
+    }
+    assert_int_equal(pov2qi(&log, "--version >/dev/null; ls up.txt ../up.txt inside/* out/* "
+                                  "/tmp/qipov-must-not-be-there.txt 2>/dev/null"),
+                     2);
+    assert_string_equal(log, "");
+    write_scene("a.pov", HEAD "#fopen W \"in/below/a.txt\" write #write (W, 1)\n");
+    assert_int_equal(pov2qi(NULL, "--version >/dev/null; mkdir in/below"), 0);
+    assert_int_equal(pov2qi(NULL, "--check a.pov --allow-write in"), 0);
+    assert_int_equal(pov2qi(NULL, "--version >/dev/null; test -f in/below/a.txt"), 0);
+    assert_int_equal(pov2qi(&log, "--check a.pov --allow-write nowhere"), 2);
+    assert_non_null(strstr(log, "no such folder"));
+}
+
+// strings.inc parses a text by writing it to a file and including that: this works in memory.
+static void parses_through_a_file(void **state) {
+    (void)state;
+    const char *log;
+    write_scene("a.pov", HEAD "#include \"strings.inc\"\n#declare A = Parse_String(\"2*(3+4)\");\n"
+                              "#declare A = Parse_String(\"A+1\");\n"
+                              "#debug concat(str(A, 0, 0), \"\\n\")\n");
+    assert_int_equal(pov2qi(&log, "--check a.pov -GW"), 0);
+    assert_string_equal(log, "15\n");
+    assert_int_not_equal(pov2qi(NULL, "--version >/dev/null; ls parse_string.tmp"), 0);
+}
+
+// Devices and pipes would never end; a scene may not name them.
+static void reads_files_only(void **state) {
+    (void)state;
+    const char *log;
+    write_scene("a.pov", HEAD "#include \"/dev/zero\"\n");
+    assert_int_equal(pov2qi(&log, "--check a.pov"), 1);
+    assert_non_null(strstr(log, "a.pov:2:10: error: Cannot open include file '/dev/zero'"));
+    write_scene("a.pov", HEAD "#fopen F \"pipe\" read\n");
+    assert_int_equal(pov2qi(&log, "--version >/dev/null; mkfifo pipe"), 0);
+    assert_int_equal(pov2qi(&log, "--check a.pov"), 1);
+    assert_non_null(strstr(log, "Cannot open file 'pipe'"));
+}
+
 int main(void) {
     if (!getcwd(project, sizeof project))
         abort();
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(table_of_real_scenes), cmocka_unit_test(lists_as_text),
-        cmocka_unit_test(lists_as_json),        cmocka_unit_test(warns_once_a_place),
-        cmocka_unit_test(debug_equals_povray),  cmocka_unit_test(follows_copied_links),
+        cmocka_unit_test(table_of_real_scenes),  cmocka_unit_test(lists_as_text),
+        cmocka_unit_test(lists_as_json),         cmocka_unit_test(warns_once_a_place),
+        cmocka_unit_test(debug_equals_povray),   cmocka_unit_test(follows_copied_links),
+        cmocka_unit_test(writes_where_it_may),   cmocka_unit_test(stays_in_its_folder),
+        cmocka_unit_test(parses_through_a_file), cmocka_unit_test(reads_files_only),
     };
-    return cmocka_run_group_tests_name("requires", tests, NULL, NULL);
+    return cmocka_run_group_tests_name("pov2qi", tests, NULL, NULL);
 }

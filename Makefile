@@ -10,7 +10,7 @@ MAKEFLAGS += --no-builtin-rules
 .SECONDARY:
 
 PACKAGES = gcc g++ pkg-config povray povray-includes povray-examples libopenimageio-dev \
-           openimageio-tools libpng-dev libcmocka-dev libjansson-dev
+           openimageio-tools libpng-dev libfreetype-dev libcmocka-dev libjansson-dev
 LINT_PACKAGES = clang-format clang-tidy cppcheck
 
 CC  ?= gcc
@@ -23,12 +23,13 @@ CXX = g++
 endif
 WARN   = -Wall -Wextra -Wshadow -Werror
 CWARN  = $(WARN) -Wconversion -Wmissing-prototypes -Wstrict-prototypes
-BASE   = -Isrc -I. -ffp-contract=off -fopenmp -MMD -MP -D_GNU_SOURCE
+FREETYPE := $(patsubst -I%,-isystem%,$(shell pkg-config --cflags-only-I freetype2 2>/dev/null))
+BASE   = -Isrc -I. $(FREETYPE) -ffp-contract=off -fopenmp -MMD -MP -D_GNU_SOURCE
 CFLAGS   ?= -O3 -g -DNDEBUG
 SAN      = -O1 -g -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=undefined -DHOSTILE
 C11    = -std=c11 $(CWARN) $(BASE)
 CXX17  = -std=c++17 $(WARN) $(BASE)
-LIBS   = -lpng -ljansson -lm
+LIBS   = -lpng -ljansson -lfreetype -lm
 # OpenImageIO is loaded when it is needed (src/image/oiio.h).
 IMAGE_LIBS = -lOpenImageIO -lOpenImageIO_Util
 

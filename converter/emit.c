@@ -256,6 +256,7 @@ static uint32_t emit_leaf(Emitter *e, const ObjectNode *node, const Inherited *o
     apply_flags(&object, own);
     if (object.type != OBJECT_PATCH)
         emit_clips(e, node, &object);
+    emit_solid(e, node, own->body, &object);
     if (own->body)
         return store_object(e, &object);
     object.texture = emit_texture(e, own->texture);
@@ -340,7 +341,7 @@ static bool is_there(const ObjectNode *node) {
     if (node->light)
         return node->light->looks_like && is_there(node->light->looks_like);
     if (!node->modelled || !object_is_tree(&node->object))
-        return node->modelled;
+        return node->modelled && !node->ignored;
     bool any = false;
     for (const ObjectNode *child = node->first; child; child = child->next) {
         bool there = is_there(child);
@@ -502,6 +503,8 @@ static void keep_pools(Emitter *e) {
     KEEP(e, scene, functions, function_count);
     KEEP(e, scene, textures, texture_count);
     KEEP(e, scene, interiors, interior_count);
+    KEEP(e, scene, meshes, mesh_count);
+    KEEP(e, scene, height_maps, height_map_count);
 }
 
 Scene *emit_scene(Converter *cv) {

@@ -52,6 +52,9 @@ typedef struct {
     InternTable pigment_table, normal_table, texture_table;
     NodeTable pigment_nodes;
     NodeTable normal_nodes[2], texture_nodes[2]; // without and with no_bump_scale from outside
+    ARRAY(Mesh) meshes;
+    ARRAY(HeightMap) height_maps;
+    NodeTable mesh_nodes, map_nodes;
 } Emitter;
 
 // requires.c: adds to cv->missing.
@@ -90,6 +93,8 @@ void emit_pattern(Emitter *e, const PatternNode *node, Pattern *pattern);
 void emit_warps(Emitter *e, const PatternNode *node, Pattern *pattern);
 uint64_t pattern_hash(uint64_t hash, const Pattern *pattern);
 
+// emit_solid.c: fills what the object keeps in the pools of the scene. bare: without textures.
+void emit_solid(Emitter *e, const ObjectNode *node, bool bare, Object *object);
 uint32_t emit_pigment(Emitter *e, const PatternNode *pigment);
 // A missing normal (NULL) bends nothing. no_bump_scale: the texture around has it.
 uint32_t emit_normal(Emitter *e, const PatternNode *normal, bool no_bump_scale);

@@ -103,7 +103,8 @@ static Box infinite_box(void) {
 // POV-Ray gives a disc a thickness.
 static const double DISC_HALF = 1e-3;
 
-static Box leaf_box(const Object *object) {
+static Box leaf_box(const ObjectNode *node) {
+    const Object *object = &node->object;
     switch (object->type) {
     case OBJECT_SPHERE:
     case OBJECT_BOX:
@@ -127,6 +128,14 @@ static Box leaf_box(const Object *object) {
     case OBJECT_MERGE:
     case OBJECT_INTERSECTION:
         break;
+    case OBJECT_SMOOTH_TRIANGLE:
+        return points_box(object->shape.smooth_triangle.p, 3);
+    default: {
+        Box box = solid_extent(node);
+        return object->has_transform && box.high.x < HUGE_EXTENT
+                   ? transformed_box(box, &object->transform)
+                   : box;
+    }
     }
     return infinite_box();
 }
@@ -194,7 +203,7 @@ bool node_extent(const ObjectNode *node, Box *out) {
         return true;
     if (!node->modelled || (object_is_tree(&node->object) && !node->light))
         return false;
-    Box box = node->light ? infinite_box() : leaf_box(&node->object);
+    Box box = node->light ? infinite_box() : leaf_box(node);
     if (!shrink(node->bounds, &box) || !shrink(node->clips, &box))
         return false;
     *out = round_box(box);

@@ -43,13 +43,25 @@ static void die_misplaced(Converter *cv, const Token *token, const char *why) {
     die_at(&loc, "%s", why);
 }
 
+// Which root finder is taken makes no difference here.
+static bool takes_sturm(int keyword) {
+    static const int keywords[] = {KW_torus, KW_blob,       KW_cubic, KW_quartic, KW_poly,
+                                   KW_lathe, KW_polynomial, KW_prism, KW_sor};
+    for (size_t i = 0; i < sizeof keywords / sizeof *keywords; i++)
+        if (keywords[i] == keyword)
+            return true;
+    return false;
+}
+
 static bool parse_rare_flag(Converter *cv, ObjectNode *node, const Token *token) {
     switch (token->code) {
     case KW_sturm:
-        if (node->modelled && node->object.type != OBJECT_TORUS)
+        if (node->modelled && !takes_sturm(node->keyword))
             die_misplaced(cv, token, "'sturm' cannot be used with this object");
         next_token(cv);
         parse_optional_bool(cv);
+        if (node->object.type == OBJECT_POLY)
+            node->object.shape.poly.sturm = true;
         return true;
     case KW_split_union:
         if (node->keyword != KW_union && node->keyword != KW_composite)

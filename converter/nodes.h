@@ -265,7 +265,14 @@ struct ObjectNode {
     const Loc *bound_loc, *clip_loc;
     const Loc *cutaway; // of cutaway_textures
     bool global_lights; // of a light_group
-    Box box;            // of a CSG, as extent.c keeps it
+    // Of the parts of a blob (NULL: it has none of its own), or of a mesh's faces.
+    const TextureNode **textures;
+    uint32_t texture_count;
+    bool has_textures;
+    const Mesh *mesh; // copies of an object have the same one
+    const HeightMap *map;
+    bool ignored; // POV-Ray leaves it out
+    Box box;      // of a CSG, as extent.c keeps it
     bool has_box;
     LightNode *light;
     const Loc *loc; // of the statement, if it is not modelled
@@ -293,7 +300,13 @@ void parse_object_modifiers(Converter *cv, ObjectNode *object);
 typedef void ParseShape(Converter *cv, ObjectNode *object);
 ParseShape *shape_parser(int keyword);       // shapes.c, patch.c; NULL: not one of theirs
 ParseShape *shape_other_parser(int keyword); // shapes_other.c
-ParseShape parse_patch_data;
+ParseShape *solid_parser(int keyword);       // solid.c and the files named like their statements
+ParseShape parse_patch_data, parse_mesh, parse_mesh2, parse_height_field, parse_text;
+// For those: n numbers; a count of at least so many points and the comma behind it.
+void read_floats(Converter *cv, double *out, uint32_t count);
+uint32_t read_count(Converter *cv, const char *what, int least);
+bool solid_is_finite(const Object *object);
+Box solid_extent(const ObjectNode *node);   // extent_solid.c
 bool shape_is_finite(const Object *object); // are the numbers that were read finite?
 void shape_move(ObjectNode *object, const Move *move);
 bool keyword_is_csg(int keyword);

@@ -7,49 +7,50 @@
 #include "converter/nodes.h"
 
 static bool object_type(int keyword, ObjectType *type) {
-    switch (keyword) {
-    case KW_union:
-    case KW_composite:
-    case KW_light_group:
-        *type = OBJECT_UNION;
-        return true;
-    case KW_merge:
-        *type = OBJECT_MERGE;
-        return true;
-    case KW_intersection:
-    case KW_difference:
-        *type = OBJECT_INTERSECTION;
-        return true;
-    case KW_bicubic_patch:
-        *type = OBJECT_PATCH;
-        return true;
-    case KW_plane:
-        *type = OBJECT_PLANE;
-        return true;
-    case KW_sphere:
-        *type = OBJECT_SPHERE;
-        return true;
-    case KW_box:
-        *type = OBJECT_BOX;
-        return true;
-    case KW_cylinder:
-        *type = OBJECT_CYLINDER;
-        return true;
-    case KW_cone:
-        *type = OBJECT_CONE;
-        return true;
-    case KW_torus:
-        *type = OBJECT_TORUS;
-        return true;
-    case KW_disc:
-        *type = OBJECT_DISC;
-        return true;
-    case KW_triangle:
-        *type = OBJECT_TRIANGLE;
-        return true;
-    default:
-        return false;
-    }
+    static const struct {
+        int keyword;
+        ObjectType type;
+    } types[] = {
+        {KW_union, OBJECT_UNION},
+        {KW_composite, OBJECT_UNION},
+        {KW_light_group, OBJECT_UNION},
+        {KW_merge, OBJECT_MERGE},
+        {KW_intersection, OBJECT_INTERSECTION},
+        {KW_difference, OBJECT_INTERSECTION},
+        {KW_bicubic_patch, OBJECT_PATCH},
+        {KW_plane, OBJECT_PLANE},
+        {KW_sphere, OBJECT_SPHERE},
+        {KW_box, OBJECT_BOX},
+        {KW_cylinder, OBJECT_CYLINDER},
+        {KW_cone, OBJECT_CONE},
+        {KW_torus, OBJECT_TORUS},
+        {KW_disc, OBJECT_DISC},
+        {KW_triangle, OBJECT_TRIANGLE},
+        {KW_quadric, OBJECT_QUADRIC},
+        {KW_cubic, OBJECT_POLY},
+        {KW_quartic, OBJECT_POLY},
+        {KW_poly, OBJECT_POLY},
+        {KW_polynomial, OBJECT_POLY},
+        {KW_superellipsoid, OBJECT_SUPERELLIPSOID},
+        {KW_lathe, OBJECT_LATHE},
+        {KW_sor, OBJECT_SOR},
+        {KW_prism, OBJECT_PRISM},
+        {KW_sphere_sweep, OBJECT_SPHERE_SWEEP},
+        {KW_blob, OBJECT_BLOB},
+        {KW_ovus, OBJECT_OVUS},
+        {KW_smooth_triangle, OBJECT_SMOOTH_TRIANGLE},
+        {KW_polygon, OBJECT_POLYGON},
+        {KW_mesh, OBJECT_MESH},
+        {KW_mesh2, OBJECT_MESH},
+        {KW_height_field, OBJECT_HEIGHT_FIELD},
+        {KW_text, OBJECT_TEXT},
+    };
+    for (size_t i = 0; i < sizeof types / sizeof *types; i++)
+        if (types[i].keyword == keyword) {
+            *type = types[i].type;
+            return true;
+        }
+    return false;
 }
 
 static bool keyword_is_surface(int keyword) {
@@ -131,6 +132,9 @@ void object_unshare(Converter *cv, ObjectNode *object) {
         size_t count = (size_t)(patch->degree_u + 1) * (patch->degree_v + 1);
         patch->points = arena_copy(cv->arena, patch->points, count * sizeof *patch->points);
     }
+    if (object->has_textures)
+        object->textures = arena_copy(cv->arena, object->textures,
+                                      object->texture_count * sizeof *object->textures);
     if (object->light) {
         object->light = arena_copy(cv->arena, object->light, sizeof *object->light);
         if (object->light->looks_like)
@@ -151,6 +155,8 @@ void object_move(Converter *cv, ObjectNode *object, Move *move) {
     if (!object->object.uv_mapping) {
         object->texture = texture_moved(cv, object->texture, move);
         object->interior_texture = texture_moved(cv, object->interior_texture, move);
+        for (uint32_t i = 0; object->has_textures && i < object->texture_count; i++)
+            object->textures[i] = texture_moved(cv, object->textures[i], move);
     }
     if (object->light) {
         light_move(object->light, move);
@@ -191,8 +197,9 @@ void object_invert(Converter *cv, ObjectNode *object) {
 // -------------------------------------------------------------------------------------
 
 static bool starts_statement(int code) {
-    return shape_parser(code) || shape_other_parser(code) || keyword_is_csg(code) ||
-           code == KW_object || code == KW_light_source || code == KW_light_group;
+    return shape_parser(code) || solid_parser(code) || shape_other_parser(code) ||
+           keyword_is_csg(code) || code == KW_object || code == KW_light_source ||
+           code == KW_light_group;
 }
 
 // object { OBJECT modifiers }
@@ -221,6 +228,8 @@ static ObjectNode *parse_data(Converter *cv, const Token *token) {
         parse_csg_data(cv, object);
     else if (shape_parser(code))
         shape_parser(code)(cv, object);
+    else if (solid_parser(code))
+        solid_parser(code)(cv, object);
     else
         shape_other_parser(code)(cv, object);
     if (object->modelled && !object->light && !shape_is_finite(&object->object)) {

@@ -148,6 +148,8 @@ bool shape_is_finite(const Object *object) {
     case OBJECT_MERGE:
     case OBJECT_INTERSECTION:
         break;
+    default:
+        return solid_is_finite(object);
     }
     return true;
 }
@@ -256,6 +258,13 @@ static void move_points(Vec3 *points, size_t count, const Move *move) {
         points[i] = move_point(points[i], move);
 }
 
+static void move_normal(Vec3 *n, const Move *move) {
+    Vec3 turned = transform_normal(&move->t, *n);
+    double length = vec_length(turned);
+    if (length > 0.0 && isfinite(length))
+        *n = vec_scale(turned, 1.0 / length);
+}
+
 void shape_move(ObjectNode *node, const Move *move) {
     Object *object = &node->object;
     if (!node->modelled)
@@ -282,10 +291,12 @@ void shape_move(ObjectNode *node, const Move *move) {
     case OBJECT_TRIANGLE:
         move_points(object->shape.triangle.p, 3, move);
         break;
-    case OBJECT_CYLINDER:
-    case OBJECT_CONE:
-    case OBJECT_TORUS:
-    case OBJECT_DISC:
+    case OBJECT_SMOOTH_TRIANGLE:
+        move_points(object->shape.smooth_triangle.p, 3, move);
+        for (int i = 0; i < 3; i++)
+            move_normal(&object->shape.smooth_triangle.n[i], move);
+        break;
+    default:
         move_by_matrix(object, move);
         break;
     }

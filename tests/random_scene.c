@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "random_scene.h"
+#include "tests/random_solid.h"
 
 #include <math.h>
 #include <stddef.h>
@@ -590,7 +591,7 @@ static void make_patch(Rng *rng, Arena *arena, PatchShape *patch) {
         patch->uv[i] = (Vec2){random_double(rng), random_double(rng)};
 }
 
-static void make_shape(Rng *rng, Arena *arena, Object *object) {
+static void make_shape(Rng *rng, Arena *arena, const Scene *scene, Object *object) {
     double size = rng_range(rng, 0, 100);
     Vec3 a = random_vec3(rng), b = random_vec3(rng);
     switch (object->type) {
@@ -624,6 +625,8 @@ static void make_shape(Rng *rng, Arena *arena, Object *object) {
     case OBJECT_TRIANGLE:
         object->shape.triangle = (TriangleShape){{a, b, random_vec3(rng)}};
         break;
+    default:
+        random_solid(rng, arena, scene, object);
     }
 }
 
@@ -635,7 +638,9 @@ static uint32_t make_objects(Rng *rng, Arena *arena, Scene *scene, int depth, ui
     *items = ARENA_ARRAY(arena, uint32_t, count);
     for (uint32_t i = 0; i < count; i++) {
         bool leaf = depth > 3 || scene->object_count > MAX_OBJECTS - 160;
-        ObjectType type = (ObjectType)(leaf ? 3 + random_below(rng, 9) : random_below(rng, 12));
+        ObjectType type =
+            (ObjectType)(leaf ? OBJECT_PATCH + random_below(rng, OBJECT_TYPE_COUNT - OBJECT_PATCH)
+                              : random_below(rng, OBJECT_TYPE_COUNT));
         uint32_t index = scene->object_count++;
         Object object = object_default(type);
         object.texture = index_or_none(rng, scene->texture_count);
@@ -645,11 +650,11 @@ static uint32_t make_objects(Rng *rng, Arena *arena, Scene *scene, int depth, ui
 #define MAKE(Type, name) object.name = rng_next(rng) % 4 == 0;
         OBJECT_FLAGS(MAKE)
 #undef MAKE
-        if (type >= OBJECT_SPHERE && type <= OBJECT_DISC && random_bool(rng)) {
+        if (object_has_space(type) && random_bool(rng)) {
             object.has_transform = true;
             object.transform = random_transform(rng);
         }
-        make_shape(rng, arena, &object);
+        make_shape(rng, arena, scene, &object);
         if (object_is_tree(&object))
             object.shape.children.count =
                 make_objects(rng, arena, scene, depth + 1, &object.shape.children.items);
@@ -771,6 +776,7 @@ Scene *random_scene(Rng *rng, Arena *arena) {
     scene->camera.has_normal = random_bool(rng);
     if (scene->camera.has_normal)
         scene->camera.normal = random_below(rng, scene->normal_count);
+    random_pools(rng, arena, scene);
     scene->objects = ARENA_ARRAY(arena, Object, MAX_OBJECTS);
     scene->root_count = make_objects(rng, arena, scene, 0, &scene->roots);
     scene->projection_count = make_objects(rng, arena, scene, 2, &scene->projections);
@@ -992,6 +998,8 @@ static const char *shape_difference(const Object *a, const Object *b) {
     case OBJECT_TRIANGLE:
         COMPARE(TriangleShape, shape.triangle)
         break;
+    default:
+        return solid_difference(a, b);
     }
     return NULL;
 }
@@ -1052,6 +1060,8 @@ const char *scene_difference(const Scene *a, const Scene *b) {
         difference = camera_difference(&a->camera, &b->camera);
     if (!difference)
         difference = sky_difference(a, b);
+    if (!difference)
+        difference = pool_difference(a, b);
     if (difference)
         return difference;
     COMPARE_EACH(fogs, fog_count, fog_difference)

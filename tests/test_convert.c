@@ -234,9 +234,8 @@ static void patch_bounds(void **state) {
     assert_warns(text, "clipped_by may cut this patch");
     assert_silent("sphere { 0, 1 bounded_by { box { -1, 1 } } }");
     assert_silent("sphere { 0, 1 clipped_by { plane { y, 0 } } bounded_by { clipped_by } }");
-    assert_warns(
-        "sphere { 0, 1 clipped_by { plane { y, 0 } blob { threshold 1 sphere { 0, 1, 1 } } } }",
-        "'blob' is not modelled");
+    assert_warns("sphere { 0, 1 clipped_by { plane { y, 0 } julia_fractal { <1,0,0,0> } } }",
+                 "'julia_fractal' is not modelled");
     snprintf(text, sizeof text, "sphere { 0, 1 bounded_by { %s } } }", patch);
     assert_dies(text, "without an inside");
 }
@@ -360,11 +359,10 @@ static void trees_and_clips(void **state) {
     assert_vec(child(s, &s->objects[sphere->clips.items[1]], 0)->shape.sphere.center, 0, 2, 0);
 
     // Without a modelled cutter it stays whole; without what bounds it nothing may be left.
-    Converted result = convert_text("difference { sphere { 0, 1 } blob { threshold 1 sphere { 0, 1,"
-                                    " 1 } } }");
+    Converted result = convert_text("difference { sphere { 0, 1 } julia_fractal { <1,0,0,0> } }");
     assert_int_equal(result.scene->object_count, 2);
     assert_int_equal(result.warnings, 1);
-    result = convert_text("difference { blob { threshold 1 sphere { 0, 1, 1 } } sphere { 0, 1 } }");
+    result = convert_text("difference { julia_fractal { <1,0,0,0> } sphere { 0, 1 } }");
     assert_int_equal(result.scene->object_count, 0);
     assert_silent("difference { sphere { 0, 1 pigment { rgb 1 } } box { 0, 1 } cutaway_textures }");
     assert_warns("difference { union { sphere { 0, 1 pigment { rgb 1 } } sphere { x, 1 pigment { "
@@ -377,11 +375,11 @@ static void trees_and_clips(void **state) {
 
 static void gaps_are_said_when_used(void **state) {
     (void)state;
-    assert_silent("#declare B = blob { threshold 1 sphere { 0, 1, 1 } } sphere { 0, 1 }");
+    assert_silent("#declare J = julia_fractal { <1,0,0,0> } sphere { 0, 1 }");
     assert_silent("#declare T = texture { pigment { wood turbulence 1 } normal { bumps } }"
                   "sphere { 0, 1 }");
-    assert_warns("sphere { 0, 1 } blob { threshold 1 sphere { 0, 1, 1 } }",
-                 "2:17: error: 'blob' is not modelled");
+    assert_warns("sphere { 0, 1 } julia_fractal { <1,0,0,0> }",
+                 "2:17: error: 'julia_fractal' is not modelled");
     Converted result =
         convert_text("#declare I = 0; #while (I < 5) sphere { I, 1 pigment { tiling 3 } "
                      "normal { tiling 3 } } #declare I = I + 1; #end");
@@ -391,10 +389,11 @@ static void gaps_are_said_when_used(void **state) {
     result = convert_text("global_settings { radiosity { count 3 } } media { emission 1 } "
                           "fog { distance 0 rgb 1 } sphere { 0, 1 }");
     assert_int_equal(result.warnings, 2);
-    result = convert_text("intersection { sphere { 0, 1 } ovus { 2, 1 } } union { sphere { 0, 1 } "
-                          "ovus { 2, 1 } }");
+    result = convert_text("#declare J = julia_fractal { <1,0,0,0> } "
+                          "intersection { sphere { 0, 1 } object { J } } "
+                          "union { sphere { 0, 1 } object { J } }");
     assert_int_equal(result.scene->object_count, 2);
-    assert_int_equal(result.warnings, 2);
+    assert_int_equal(result.warnings, 1); // once a place
 }
 
 static void empty_scenes(void **state) {

@@ -58,7 +58,7 @@ static const Bad BAD[] = {
     {"unknown switch", CAMERA, "+W16 +H12 --methd qi", 2, "--method"},
     {"unknown method", CAMERA, "+W16 +H12 --method fast", 2, "qi-paper"},
     {"include that is not there", "#include \"nowhere.inc\"\n", NULL, 1, "nowhere.inc"},
-    {"strict", CAMERA "blob { threshold 0.5 sphere { 0, 1, 1 } }\n", "+W16 +H12 --strict", 1,
+    {"strict", CAMERA "julia_fractal { <1,0,0,0> }\n", "+W16 +H12 --strict", 1,
      "bad.pov:2:1: error: "},
 };
 

@@ -33,7 +33,7 @@ static int destroy_arena(void **state) {
 
 static Shape prepare(Object object) {
     Object *kept = arena_copy(arena, &object, sizeof object);
-    return shape_prepare(kept, arena);
+    return shape_prepare(NULL, kept, NULL, arena);
 }
 
 static Shape sphere(Vec3 center, double radius) {
@@ -90,7 +90,7 @@ static void expect(const Shape *shape, Vec3 org, Vec3 dir, int count, const doub
     dir = vec_normalize(dir);
     for (int i = 0; i < count; i++) {
         assert_true(fabs(hits[i].t - depths[i]) < 1e-13 * (1 + fabs(depths[i])));
-        Vec3 n = shape_normal(shape, vec_madd(org, hits[i].t, dir), hits[i].part);
+        Vec3 n = shape_normal(shape, vec_madd(org, hits[i].t, dir), &hits[i]);
         assert_true(vec_length(vec_sub(n, normals[i])) < 1e-12);
     }
 }
@@ -130,7 +130,7 @@ static void test_plane(void **state) {
     assert_true(shape_inside(&s, vec3(9, 1.9, 9)) && !shape_inside(&s, vec3(9, 2.1, 9)));
     assert_true(shape_inside(&s, vec3(9, 2, 9)));
     assert_true(shape_inside(&inverse, vec3(9, 2.1, 9)) && !shape_inside(&inverse, vec3(9, 1, 9)));
-    Vec2 uv = shape_uv(&s, vec3(3, 2, 4), 0);
+    Vec2 uv = shape_uv(&s, vec3(3, 2, 4), &(ShapeHit){0});
     assert_true(uv.u == 3 && uv.v == 2);
 }
 
@@ -220,7 +220,7 @@ static void test_cone(void **state) {
         ShapeHit hits[SHAPE_MAX_HITS];
         int count = hits_of(&s, vec3(0, 5, 0), vec3(0, -1, 0), hits);
         assert_true(count >= 2 && fabs(hits[0].t - 3) < 1e-12 && hits[count - 1].t == 5);
-        Vec3 tip = shape_normal(&s, vec3(0, 2, 0), hits[0].part);
+        Vec3 tip = shape_normal(&s, vec3(0, 2, 0), &hits[0]);
         assert_true(fabs(tip.y - 1) < 1e-9);
         assert_true(shape_inside(&s, vec3(0.9, 1, 0)) && !shape_inside(&s, vec3(1.1, 1, 0)));
         assert_false(shape_inside(&s, vec3(0, -0.1, 0)));
@@ -313,12 +313,12 @@ static void test_uv(void **state) {
                     {{0, -0.5, 2}, 0.25, 0.25},
                     {{0, 0.5, -2}, 0.75, 0.75}};
     for (size_t i = 0; i < sizeof on_sphere / sizeof *on_sphere; i++) {
-        Vec2 uv = shape_uv(&ball, on_sphere[i].p, 0);
+        Vec2 uv = shape_uv(&ball, on_sphere[i].p, &(ShapeHit){0});
         assert_true(fabs(uv.u - on_sphere[i].u) < 1e-15 && fabs(uv.v - on_sphere[i].v) < 1e-15);
     }
     Shape ring = torus(2, 0.5);
     for (size_t i = 0; i < sizeof on_torus / sizeof *on_torus; i++) {
-        Vec2 uv = shape_uv(&ring, on_torus[i].p, 0);
+        Vec2 uv = shape_uv(&ring, on_torus[i].p, &(ShapeHit){0});
         assert_true(fabs(uv.u - on_torus[i].u) < 1e-15 && fabs(uv.v - on_torus[i].v) < 1e-15);
     }
     // Each side of the box has a cell of its own.
@@ -332,7 +332,7 @@ static void test_uv(void **state) {
     for (size_t i = 0; i < 6; i++) {
         ShapeHit hits[SHAPE_MAX_HITS];
         assert_int_equal(hits_of(&b, sides[i].from, vec_neg(sides[i].from), hits), 2);
-        Vec2 uv = shape_uv(&b, vec_scale(sides[i].from, 0.2), hits[0].part);
+        Vec2 uv = shape_uv(&b, vec_scale(sides[i].from, 0.2), &hits[0]);
         assert_true(fabs(uv.u - sides[i].u) < 1e-15 && fabs(uv.v - sides[i].v) < 1e-15);
     }
 }
@@ -376,7 +376,7 @@ static void test_depth_limits(void **state) {
         object.has_transform = true;
         object.transform = transform_compose(&turn, &lift);
         object.transform = transform_compose(&object.transform, &size);
-        Shape shape = shape_prepare(&object, arena);
+        Shape shape = shape_prepare(NULL, &object, NULL, arena);
         ShapeHit hits[SHAPE_MAX_HITS];
         Vec3 org = vec3(is_torus ? s : 0, 0, -cases[i].distance);
         int count = hits_of(&shape, org, Z, hits);
@@ -532,7 +532,7 @@ static void test_random_solids(void **state) {
     int hit_count = 0, normal_count = 0;
     for (int i = 0; i < 3000; i++) {
         Object object = random_solid(&rng);
-        Shape shape = shape_prepare(&object, arena);
+        Shape shape = shape_prepare(NULL, &object, NULL, arena);
         Box bounds = shape_bounds(&shape);
         Vec3 size = vec_sub(bounds.high, bounds.low);
         for (int k = 0; k < 20; k++) {
@@ -550,7 +550,7 @@ static void test_random_solids(void **state) {
                 for (int axis = 0; axis < 3; axis++)
                     assert_true(vec_get(p, axis) > vec_get(bounds.low, axis) - 1e-9 &&
                                 vec_get(p, axis) < vec_get(bounds.high, axis) + 1e-9);
-                Vec3 n = shape_normal(&shape, p, hits[h].part), g = gradient(&object, p);
+                Vec3 n = shape_normal(&shape, p, &hits[h]), g = gradient(&object, p);
                 assert_true(fabs(vec_length(n) - 1.0) < 1e-14);
                 n = object.inverse ? vec_neg(n) : n;
                 // Differences across an edge or near the tip say nothing.
@@ -585,7 +585,7 @@ static void test_bounds_are_tight(void **state) {
         if (object.type == OBJECT_TORUS || object.type == OBJECT_BOX)
             continue;
         object.inverse = false;
-        Shape shape = shape_prepare(&object, arena);
+        Shape shape = shape_prepare(NULL, &object, NULL, arena);
         Box bounds = shape_bounds(&shape), seen = box_empty();
         Vec3 center = object.type == OBJECT_SPHERE
                           ? object.shape.sphere.center

@@ -116,7 +116,7 @@ static double fraction(double x) { return x - floor(x); }
 // What the pixel must be; false where the ray misses.
 static bool expect(const Shape *shape, const Ray *ray, Paint paint, double rgb[CHANNELS],
                    double *reach) {
-    ShapeHit hits[SHAPE_MAX_HITS], best = {INFINITY, 0};
+    ShapeHit hits[SHAPE_MAX_HITS], best = {.t = INFINITY};
     int count = shape_hits(shape, ray, hits);
     for (int i = count - 1; i >= 0; i--) {
         assert_true(isfinite(hits[i].t));
@@ -126,8 +126,8 @@ static bool expect(const Shape *shape, const Ray *ray, Paint paint, double rgb[C
     if (!(best.t < INFINITY))
         return false;
     Vec3 p = vec_madd(ray->org, best.t, ray->dir);
-    Vec3 n = shape_normal(shape, p, best.part);
-    Vec2 uv = shape_uv(shape, p, best.part);
+    Vec3 n = shape_normal(shape, p, &best);
+    Vec2 uv = shape_uv(shape, p, &best);
     *reach = paint == PAINT_NORMAL ? 0.0 : vec_length(p);
     bool inside = vec_dot(n, ray->dir) > 0.0;
     if (inside)
@@ -171,7 +171,7 @@ static void compare(const Job *job, size_t number, Tally *tally) {
     object.has_transform = job->transform != NULL;
     if (job->transform)
         object.transform = *job->transform;
-    Shape shape = shape_prepare(&object, arena);
+    Shape shape = shape_prepare(NULL, &object, NULL, arena);
     for (int i = 0; i < PIXELS; i++) {
         Ray ray = ray_through(job->view, i % WIDTH, i / WIDTH);
         double rgb[CHANNELS] = {0, 0, 0}, reach = 0.0;

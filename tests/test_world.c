@@ -154,9 +154,7 @@ static Object random_object(Stage *stage, Rng *rng, ObjectType type) {
         patch->uv[1] = (Vec2){1, 0}, patch->uv[2] = (Vec2){1, 1}, patch->uv[3] = (Vec2){0, 1};
         break;
     }
-    case OBJECT_UNION:
-    case OBJECT_MERGE:
-    case OBJECT_INTERSECTION:
+    default:
         break;
     }
     return object;

@@ -47,7 +47,8 @@ void stage_ready(Stage *stage, bool parts) {
     stage->shapes = ARENA_ARRAY(stage->arena, Shape, n);
     stage->patches = ARENA_ARRAY(stage->arena, PatchSet *, n);
     for (uint32_t i = 0; i < n; i++) {
-        stage->shapes[i] = shape_prepare(&stage->objects.items[i], stage->arena);
+        stage->shapes[i] =
+            shape_prepare(&stage->scene, &stage->objects.items[i], NULL, stage->arena);
         if (stage->objects.items[i].type == OBJECT_PATCH)
             stage->patches[i] = single_patch(&stage->objects.items[i], i);
     }

@@ -55,6 +55,10 @@ void check_index(const Check *c, const FieldPath *path, uint32_t index, uint32_t
                  const char *what);
 void check_transform(const Check *c, const FieldPath *up, const char *name, const Transform *t);
 
+// solid_check.c: what the larger primitives are made of, and the pools they refer to.
+void check_solid(const Check *c, const FieldPath *path, const Object *object);
+void check_solid_pools(const Check *c);
+
 // check_texture.c
 void check_texture_pools(const Check *c);
 void check_pigment(const Check *c, const FieldPath *path, uint32_t index, int depth);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Inside the room: the lines of the tables in scene_fields.c and texture_fields.c.
+// Inside the room: the lines of the tables in scene_fields.c, object_fields.c and texture_fields.c.
 #ifndef MODEL_FIELD_MACROS_H
 #define MODEL_FIELD_MACROS_H
 
@@ -31,6 +31,17 @@
     {                                                                                              \
         .name = text, .type = FIELD_RECORDS, AT(Struct, member), .link = offsetof(Struct, count),  \
         .record = table                                                                            \
+    }
+// Rows of numbers of the member's type, as many as `count` says.
+#define TABLE(Struct, member, count, text, width)                                                  \
+    {                                                                                              \
+        .name = text, .type = FIELD_TABLE, AT(Struct, member), .link = offsetof(Struct, count),    \
+        .columns = width                                                                           \
+    }
+#define INDEX_TABLE(Struct, member, count, text, width)                                            \
+    {                                                                                              \
+        .name = text, .type = FIELD_INDEX_TABLE, AT(Struct, member),                               \
+        .link = offsetof(Struct, count), .columns = width                                          \
     }
 #define END                                                                                        \
     { .name = NULL }

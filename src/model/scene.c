@@ -158,7 +158,16 @@ Object object_default(ObjectType type) {
     object.transform = transform_identity();
     if (type == OBJECT_PATCH)
         object.shape.patch = patch_default();
+    if (type == OBJECT_BLOB)
+        object.shape.blob.threshold = 1;
+    if (type == OBJECT_SPHERE_SWEEP)
+        object.shape.sphere_sweep.tolerance = 1e-6;
     return object;
+}
+
+bool object_has_space(ObjectType type) {
+    return (type >= OBJECT_SPHERE && type <= OBJECT_DISC) ||
+           (type >= OBJECT_QUADRIC && type != OBJECT_SMOOTH_TRIANGLE);
 }
 
 bool object_is_tree(const Object *object) {
@@ -176,6 +185,7 @@ bool object_is_tree(const Object *object) {
     X(average)                                                                                     \
     X(bezier_patch)                                                                                \
     X(bicubic_patch)                                                                               \
+    X(blob)                                                                                        \
     X(box)                                                                                         \
     X(boxed)                                                                                       \
     X(bozo)                                                                                        \
@@ -210,6 +220,7 @@ bool object_is_tree(const Object *object) {
     X(function)                                                                                    \
     X(gradient)                                                                                    \
     X(granite)                                                                                     \
+    X(height_field)                                                                                \
     X(hexagon)                                                                                     \
     X(hollow)                                                                                      \
     X(image_map)                                                                                   \
@@ -219,6 +230,7 @@ bool object_is_tree(const Object *object) {
     X(intersection)                                                                                \
     X(inverse)                                                                                     \
     X(irid)                                                                                        \
+    X(lathe)                                                                                       \
     X(layered_texture)                                                                             \
     X(leopard)                                                                                     \
     X(light_fade)                                                                                  \
@@ -227,6 +239,7 @@ bool object_is_tree(const Object *object) {
     X(material_map)                                                                                \
     X(media_attenuation)                                                                           \
     X(merge)                                                                                       \
+    X(mesh)                                                                                        \
     X(metallic)                                                                                    \
     X(no_image)                                                                                    \
     X(no_reflection)                                                                               \
@@ -237,6 +250,7 @@ bool object_is_tree(const Object *object) {
     X(omnimax)                                                                                     \
     X(onion)                                                                                       \
     X(orthographic)                                                                                \
+    X(ovus)                                                                                        \
     X(panoramic)                                                                                   \
     X(parallel_light)                                                                              \
     X(pattern_warp)                                                                                \
@@ -248,7 +262,11 @@ bool object_is_tree(const Object *object) {
     X(planar)                                                                                      \
     X(plane)                                                                                       \
     X(point_light)                                                                                 \
+    X(poly)                                                                                        \
+    X(polygon)                                                                                     \
+    X(prism)                                                                                       \
     X(projected_through)                                                                           \
+    X(quadric)                                                                                     \
     X(quilted)                                                                                     \
     X(radial)                                                                                      \
     X(rainbow)                                                                                     \
@@ -260,14 +278,19 @@ bool object_is_tree(const Object *object) {
     X(sky_sphere)                                                                                  \
     X(slope)                                                                                       \
     X(slope_map)                                                                                   \
+    X(smooth_triangle)                                                                             \
+    X(sor)                                                                                         \
     X(specular)                                                                                    \
     X(sphere)                                                                                      \
+    X(sphere_sweep)                                                                                \
     X(spherical)                                                                                   \
     X(spherical_camera)                                                                            \
     X(spiral1)                                                                                     \
     X(spiral2)                                                                                     \
     X(spotlight)                                                                                   \
     X(square)                                                                                      \
+    X(superellipsoid)                                                                              \
+    X(text)                                                                                        \
     X(texture_map)                                                                                 \
     X(torus)                                                                                       \
     X(transparency)                                                                                \
@@ -454,9 +477,39 @@ static Feature object_feature(const Object *object) {
     case OBJECT_DISC:
         return FEATURE_disc;
     case OBJECT_TRIANGLE:
+        return FEATURE_triangle;
+    case OBJECT_QUADRIC:
+        return FEATURE_quadric;
+    case OBJECT_POLY:
+        return FEATURE_poly;
+    case OBJECT_SUPERELLIPSOID:
+        return FEATURE_superellipsoid;
+    case OBJECT_LATHE:
+        return FEATURE_lathe;
+    case OBJECT_SOR:
+        return FEATURE_sor;
+    case OBJECT_PRISM:
+        return FEATURE_prism;
+    case OBJECT_SPHERE_SWEEP:
+        return FEATURE_sphere_sweep;
+    case OBJECT_BLOB:
+        return FEATURE_blob;
+    case OBJECT_OVUS:
+        return FEATURE_ovus;
+    case OBJECT_SMOOTH_TRIANGLE:
+        return FEATURE_smooth_triangle;
+    case OBJECT_POLYGON:
+        return FEATURE_polygon;
+    case OBJECT_MESH:
+        return FEATURE_mesh;
+    case OBJECT_HEIGHT_FIELD:
+        return FEATURE_height_field;
+    case OBJECT_TEXT:
+        return FEATURE_text;
+    case OBJECT_TYPE_COUNT:
         break;
     }
-    return FEATURE_triangle;
+    return FEATURE_COUNT;
 }
 
 static void collect_objects(const Scene *scene, FeatureSet *set) {

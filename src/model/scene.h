@@ -12,6 +12,7 @@
 #include "base/color.h"
 #include "base/vec.h"
 #include "model/function.h"
+#include "model/solid.h"
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -454,6 +455,21 @@ typedef enum {
     OBJECT_TORUS,
     OBJECT_DISC,
     OBJECT_TRIANGLE,
+    OBJECT_QUADRIC,
+    OBJECT_POLY,
+    OBJECT_SUPERELLIPSOID,
+    OBJECT_LATHE,
+    OBJECT_SOR,
+    OBJECT_PRISM,
+    OBJECT_SPHERE_SWEEP,
+    OBJECT_BLOB,
+    OBJECT_OVUS,
+    OBJECT_SMOOTH_TRIANGLE,
+    OBJECT_POLYGON,
+    OBJECT_MESH,
+    OBJECT_HEIGHT_FIELD,
+    OBJECT_TEXT,
+    OBJECT_TYPE_COUNT,
 } ObjectType;
 
 // A Bézier patch in world space. Row i of points is weighted with u (POV-Ray's first index),
@@ -519,7 +535,7 @@ typedef struct {
     bool inverse;          // of leaves only: the inverse of a tree is lowered to that of its leaves
     bool uv_mapping;       // object level: all its textures are evaluated at (u, v, 0)
     bool has_transform;
-    Transform transform; // local to world, for SPHERE .. DISC
+    Transform transform; // local to world, of types with a local space (object_has_space)
     // Hits, and the inside, are only where all of these objects are (their flags and textures do
     // not count). Not on patches: POV-Ray ignores it there.
     ObjectList clips;
@@ -532,6 +548,20 @@ typedef struct {
         TorusShape torus;
         DiscShape disc;
         TriangleShape triangle;
+        QuadricShape quadric;
+        PolyShape poly;
+        SuperellipsoidShape superellipsoid;
+        LatheShape lathe;
+        SorShape sor;
+        PrismShape prism;
+        SphereSweepShape sphere_sweep;
+        BlobShape blob;
+        OvusShape ovus;
+        SmoothTriangleShape smooth_triangle;
+        PolygonShape polygon;
+        MeshShape mesh;
+        HeightFieldShape height_field;
+        TextShape text;
         ObjectList children; // UNION, MERGE, INTERSECTION
     } shape;
 } Object;
@@ -596,6 +626,10 @@ typedef struct {
     uint32_t texture_count;
     Interior *interiors;
     uint32_t interior_count;
+    Mesh *meshes;
+    uint32_t mesh_count;
+    HeightMap *height_maps;
+    uint32_t height_map_count;
     Object *objects; // every node of the trees
     uint32_t object_count;
     uint32_t *roots; // what stands at top level, in the order of the source
@@ -632,6 +666,8 @@ Warp warp_default(WarpType type);
 Object object_default(ObjectType type);
 // Has it children?
 bool object_is_tree(const Object *object);
+// Has it a local space, so that it may have a transform?
+bool object_has_space(ObjectType type);
 
 // Checks what the renderer relies on: indices in range, trees without cycles, degrees, finite
 // numbers, map positions. Dies naming the field ("objects[3].interior: ..."). file is for messages.

@@ -4,6 +4,7 @@
 #include "model/field_macros.h"
 #include "model/texture_fields.h"
 
+#include <assert.h>
 #include <string.h>
 
 _Static_assert(sizeof(Vec3) == 3 * sizeof(double), "vectors are plain rows of doubles");
@@ -208,117 +209,6 @@ static const Field RAINBOW_FIELDS[] = {
 static void default_rainbow(void *out) { *(Rainbow *)out = rainbow_default(); }
 static const Record RAINBOW = {NULL, RAINBOW_FIELDS, sizeof(Rainbow), default_rainbow, NULL};
 
-// ---- objects --------------------------------------------------------------------------------
-
-// ORDER object_type
-const char *const OBJECT_TYPE_NAMES[] = {
-    "union",    "merge", "intersection", "bicubic_patch", "plane",    "sphere", "box",
-    "cylinder", "cone",  "torus",        "disc",          "triangle", NULL,
-};
-const char BEZIER_PATCH_NAME[] = "bezier_patch";
-
-static const Field OBJECT_FIELDS[] = {
-    INDEX(Object, texture, "texture"),
-    INDEX(Object, interior_texture, "interior_texture"),
-    INDEX(Object, interior, "interior"),
-    BOOL(Object, no_shadow, "no_shadow"),
-    BOOL(Object, no_image, "no_image"),
-    BOOL(Object, no_reflection, "no_reflection"),
-    BOOL(Object, hollow, "hollow"),
-    INDEX(Object, light_group, "light_group"),
-    BOOL(Object, no_global_lights, "no_global_lights"),
-    BOOL(Object, inverse, "inverse"),
-    BOOL(Object, double_illuminate, "double_illuminate"),
-    BOOL(Object, uv_mapping, "uv_mapping"),
-    END,
-};
-static const Record OBJECT = {NULL, OBJECT_FIELDS, sizeof(Object), NULL, NULL};
-
-// The types with a local space have these last, so that the file shows the shape first.
-#define OBJECT_TRANSFORM                                                                           \
-    {                                                                                              \
-        .name = "transform", .type = FIELD_TRANSFORM, .presence = FIELD_FLAGGED,                   \
-        AT(Object, transform), .link = offsetof(Object, has_transform)                             \
-    }
-#define SHAPE_VEC3(member, text) VEC3_AS(FIELD_REQUIRED, Object, shape.member, text)
-#define SHAPE_DOUBLE(member, text) DOUBLE_AS(FIELD_REQUIRED, Object, shape.member, text)
-
-static const Field PATCH_FIELDS[] = {
-    INT(Object, shape.patch.type, "patch_type"),
-    DOUBLE_AS(FIELD_PLAIN, Object, shape.patch.flatness, "flatness"),
-    INT(Object, shape.patch.u_steps, "u_steps"),
-    INT(Object, shape.patch.v_steps, "v_steps"),
-    {.name = "uv", .type = FIELD_ROWS, AT(Object, shape.patch.uv), .rows = 4, .columns = 2},
-    END,
-};
-static const Field PLANE_FIELDS[] = {
-    SHAPE_VEC3(plane.normal, "normal"),
-    SHAPE_DOUBLE(plane.distance, "distance"),
-    END,
-};
-static const Field SPHERE_FIELDS[] = {
-    SHAPE_VEC3(sphere.center, "center"),
-    SHAPE_DOUBLE(sphere.radius, "radius"),
-    OBJECT_TRANSFORM,
-    END,
-};
-static const Field BOX_FIELDS[] = {
-    SHAPE_VEC3(box.low, "low"),
-    SHAPE_VEC3(box.high, "high"),
-    OBJECT_TRANSFORM,
-    END,
-};
-static const Field CONE_FIELDS[] = {
-    SHAPE_VEC3(cone.base, "base"),
-    SHAPE_DOUBLE(cone.base_radius, "base_radius"),
-    SHAPE_VEC3(cone.apex, "apex"),
-    SHAPE_DOUBLE(cone.apex_radius, "apex_radius"),
-    BOOL(Object, shape.cone.open, "open"),
-    OBJECT_TRANSFORM,
-    END,
-};
-static const Field TORUS_FIELDS[] = {
-    SHAPE_DOUBLE(torus.major, "major"),
-    SHAPE_DOUBLE(torus.minor, "minor"),
-    OBJECT_TRANSFORM,
-    END,
-};
-static const Field DISC_FIELDS[] = {
-    SHAPE_VEC3(disc.center, "center"),
-    SHAPE_VEC3(disc.normal, "normal"),
-    SHAPE_DOUBLE(disc.radius, "radius"),
-    DOUBLE_AS(FIELD_PLAIN, Object, shape.disc.hole, "hole"),
-    OBJECT_TRANSFORM,
-    END,
-};
-static const Field TRIANGLE_FIELDS[] = {
-    {.name = "points",
-     .type = FIELD_ROWS,
-     .presence = FIELD_REQUIRED,
-     AT(Object, shape.triangle.p),
-     .rows = 3,
-     .columns = 3},
-    END,
-};
-
-// ORDER object_type
-static const Record OBJECT_RECORDS[] = {
-    {NULL, OBJECT_FIELDS, sizeof(Object), NULL, NULL}, // union
-    {NULL, OBJECT_FIELDS, sizeof(Object), NULL, NULL}, // merge
-    {NULL, OBJECT_FIELDS, sizeof(Object), NULL, NULL}, // intersection
-    {&OBJECT, PATCH_FIELDS, sizeof(Object), NULL, NULL},
-    {&OBJECT, PLANE_FIELDS, sizeof(Object), NULL, NULL},
-    {&OBJECT, SPHERE_FIELDS, sizeof(Object), NULL, NULL},
-    {&OBJECT, BOX_FIELDS, sizeof(Object), NULL, NULL},
-    {&OBJECT, CONE_FIELDS, sizeof(Object), NULL, NULL}, // cylinder
-    {&OBJECT, CONE_FIELDS, sizeof(Object), NULL, NULL},
-    {&OBJECT, TORUS_FIELDS, sizeof(Object), NULL, NULL},
-    {&OBJECT, DISC_FIELDS, sizeof(Object), NULL, NULL},
-    {&OBJECT, TRIANGLE_FIELDS, sizeof(Object), NULL, NULL},
-};
-
-const Record *object_record(ObjectType type) { return &OBJECT_RECORDS[type]; }
-
 // ---- the document ---------------------------------------------------------------------------
 
 static const Field SCENE_FIELDS[] = {
@@ -344,6 +234,8 @@ static const Field SCENE_FIELDS[] = {
     RECORDS(Scene, functions, function_count, "functions", &FUNCTION_RECORD),
     RECORDS(Scene, textures, texture_count, "textures", &TEXTURE_RECORD),
     RECORDS(Scene, interiors, interior_count, "interiors", &INTERIOR),
+    RECORDS(Scene, meshes, mesh_count, "meshes", &MESH_RECORD),
+    RECORDS(Scene, height_maps, height_map_count, "height_maps", &HEIGHT_MAP_RECORD),
     END,
 };
 static void default_scene(void *out) {
@@ -376,6 +268,7 @@ static bool list_equal(const Field *field, const void *a, const void *b) {
 static bool member_equal(const Field *field, const void *a, const void *b) {
     if (field->type == FIELD_RECORDS || field->type == FIELD_INDICES)
         return list_equal(field, a, b);
+    assert(field->type != FIELD_TABLE && field->type != FIELD_INDEX_TABLE);
     if (field->presence == FIELD_FLAGGED) {
         bool present = *(const bool *)field_of(a, field->link);
         if (present != *(const bool *)field_of(b, field->link))
@@ -457,6 +350,8 @@ bool field_equal(const Field *field, const void *a, const void *b) {
         return record_equal(field->record, a, b);
     case FIELD_RECORDS:
     case FIELD_INDICES:
+    case FIELD_TABLE:
+    case FIELD_INDEX_TABLE:
         return false; // lists need the counts beside them: list_equal
     }
     return memcmp(a, b, size) == 0;

@@ -26,6 +26,9 @@ typedef enum {
     FIELD_RECORD,    // a struct inside the struct
     FIELD_RECORDS,   // a pointer to structs, their count at `link`
     FIELD_INDICES,   // a pointer to uint32_t, their count at `link`
+    FIELD_TABLE,     // a pointer to rows of `columns` doubles, their count at `link`
+    // The same of uint32_t; NO_INDEX is written as -1.
+    FIELD_INDEX_TABLE,
 } FieldType;
 
 typedef enum {
@@ -60,7 +63,10 @@ struct Record {
     void (*set_kind_default)(void *out);
 };
 
-extern const Record FUNCTION_RECORD;          // function_fields.c
+extern const Record FUNCTION_RECORD; // function_fields.c
+enum { MESH_FACE_COLUMNS = 12 };
+
+extern const Record MESH_RECORD, HEIGHT_MAP_RECORD;
 extern const Record SCENE_RECORD;             // all of Scene but objects, roots, requires
 const Record *object_record(ObjectType type); // without type, points and children
 

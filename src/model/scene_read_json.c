@@ -8,6 +8,9 @@
 #include <math.h>
 #include <string.h>
 
+// So that a count, and a count of bytes, fits its type.
+enum { MAX_TABLE = 0x7fffffff };
+
 static const char *type_name(json_type type) {
     switch (type) {
     case JSON_OBJECT:
@@ -185,6 +188,35 @@ static void read_list(const Reader *r, const FieldPath *up, const json_t *value,
     *(uint32_t *)field_at(at, field->link) = (uint32_t)count;
 }
 
+// Rows of numbers into a pointer and a count, both members of the struct at `at`.
+static void read_table(const Reader *r, const FieldPath *path, const json_t *value,
+                       const Field *field, void *at) {
+    bool indices = field->type == FIELD_INDEX_TABLE;
+    size_t columns = (size_t)field->columns;
+    read_expect(r, path, value, JSON_ARRAY);
+    size_t count = json_array_size(value);
+    if (count > MAX_TABLE / columns)
+        path_die(r->file, path, "too many entries");
+    void *items =
+        arena_array(r->arena, count * columns, indices ? sizeof(uint32_t) : sizeof(double));
+    for (size_t i = 0; i < count; i++) {
+        const FieldPath row_path = path_item(path, NULL, (uint32_t)i);
+        json_t *row = json_array_get(value, i);
+        if (columns > 1)
+            expect_count(r, &row_path, row, field->columns);
+        for (size_t j = 0; j < columns; j++) {
+            const json_t *number = columns > 1 ? json_array_get(row, j) : row;
+            if (indices)
+                ((uint32_t *)items)[i * columns + j] =
+                    (uint32_t)read_integer(r, &row_path, number, -1, NO_INDEX - 1);
+            else
+                ((double *)items)[i * columns + j] = read_double(r, &row_path, number);
+        }
+    }
+    *(void **)field_at(at, field->offset) = items;
+    *(uint32_t *)field_at(at, field->link) = (uint32_t)count;
+}
+
 // ORDER field_type
 static void read_value(const Reader *r, const FieldPath *up, json_t *value, const Field *field,
                        void *record) {
@@ -235,6 +267,10 @@ static void read_value(const Reader *r, const FieldPath *up, json_t *value, cons
     case FIELD_RECORDS:
     case FIELD_INDICES:
         read_list(r, up, value, field, record);
+        break;
+    case FIELD_TABLE:
+    case FIELD_INDEX_TABLE:
+        read_table(r, &path, value, field, record);
         break;
     }
 }

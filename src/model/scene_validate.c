@@ -234,18 +234,16 @@ static void check_shape(const Check *c, const FieldPath *path, const Object *obj
     case OBJECT_TRIANGLE:
         check_numbers(c, path, "points", &object->shape.triangle.p[0].x, 9);
         break;
+    default:
+        check_solid(c, path, object);
     }
-}
-
-static bool has_local_space(ObjectType type) {
-    return type >= OBJECT_SPHERE && type <= OBJECT_DISC;
 }
 
 static void check_object(const Check *c, const FieldPath *path, const Object *object) {
     const FieldPath texture = path_field(path, "texture"), inside = path_field(path, "interior"),
                     inner = path_field(path, "interior_texture"),
                     transform = path_field(path, "transform");
-    if ((int)object->type < OBJECT_UNION || object->type > OBJECT_TRIANGLE)
+    if ((int)object->type < OBJECT_UNION || object->type >= OBJECT_TYPE_COUNT)
         refuse(c, path, "unknown object type %d", (int)object->type);
     if (object->texture != NO_INDEX)
         check_index(c, &texture, object->texture, c->scene->texture_count, "texture");
@@ -253,7 +251,7 @@ static void check_object(const Check *c, const FieldPath *path, const Object *ob
         check_index(c, &inner, object->interior_texture, c->scene->texture_count, "texture");
     if (object->interior != NO_INDEX)
         check_index(c, &inside, object->interior, c->scene->interior_count, "interior");
-    if (object->has_transform && !has_local_space(object->type))
+    if (object->has_transform && !object_has_space(object->type))
         refuse(c, &transform, "this type has no local space");
     if (object->has_transform)
         check_transform(c, path, "transform", &object->transform);
@@ -322,6 +320,7 @@ static void check_scene(void *context) {
         const FieldPath path = path_item(NULL, "interiors", i);
         check_interior(c, &path, &scene->interiors[i]);
     }
+    check_solid_pools(c);
     check_objects(c);
 }
 

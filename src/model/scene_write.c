@@ -14,6 +14,7 @@
 #include "model/scene_format.h"
 
 #include <assert.h>
+#include <inttypes.h>
 #include <jansson.h>
 #include <stdlib.h>
 #include <string.h>
@@ -157,6 +158,9 @@ static void write_record(Writer *w, const Record *record, const void *at) {
         Texture texture;
         Interior interior;
         Function function;
+        BlobComponent component;
+        Mesh mesh;
+        HeightMap height_map;
     } defaults; // room for any of them
     assert(record->size <= sizeof defaults);
     record->set_default(&defaults);
@@ -188,6 +192,29 @@ static void write_list(Writer *w, const Field *field, const void *record) {
             write_record(w, field->record, items + i * field->record->size);
     }
     fputc(']', w->out);
+}
+
+static void write_table(Writer *w, const Field *field, const void *record) {
+    const double *numbers = *(const double *const *)field_of(record, field->offset);
+    uint32_t count = count_at(record, field);
+    if (field->columns == 1)
+        write_doubles(w, numbers, (int)count);
+    else
+        write_rows(w, numbers, (int)count, field->columns, field->columns);
+}
+
+static void write_index_table(Writer *w, const Field *field, const void *record) {
+    const uint32_t *numbers = *(const uint32_t *const *)field_of(record, field->offset);
+    uint32_t count = count_at(record, field) * (uint32_t)field->columns;
+    for (uint32_t i = 0; i < count; i++) {
+        bool first = field->columns > 1 && i % (uint32_t)field->columns == 0;
+        fputs(i == 0 ? "[" : ",", w->out);
+        fputs(first ? "[" : "", w->out);
+        fprintf(w->out, "%" PRId64, numbers[i] == NO_INDEX ? INT64_C(-1) : (int64_t)numbers[i]);
+        if (field->columns > 1 && (i + 1) % (uint32_t)field->columns == 0)
+            fputc(']', w->out);
+    }
+    fputs(count ? "]" : "[]", w->out);
 }
 
 // ORDER field_type
@@ -237,13 +264,19 @@ static void write_value(Writer *w, const Field *field, const void *record) {
     case FIELD_INDICES:
         write_list(w, field, record);
         break;
+    case FIELD_TABLE:
+        write_table(w, field, record);
+        break;
+    case FIELD_INDEX_TABLE:
+        write_index_table(w, field, record);
+        break;
     }
 }
 
 static bool is_written(const Field *field, const void *record, const void *defaults) {
     if (field->presence == FIELD_FLAGGED)
         return *(const bool *)field_of(record, field->link);
-    if (field->type == FIELD_RECORDS || field->type == FIELD_INDICES)
+    if (field->type >= FIELD_RECORDS)
         return count_at(record, field) > 0;
     return field->presence != FIELD_PLAIN ||
            !field_equal(field, field_of(record, field->offset), field_of(defaults, field->offset));

@@ -37,6 +37,7 @@ static Box widened(Box box) {
 typedef struct {
     const Scene *scene;
     Arena *arena;
+    ShapeShared *shared;
     uint32_t *of_object;
     ARRAY(CsgNode) nodes;
 } Maker;
@@ -59,7 +60,7 @@ static void make_leaf(Maker *maker, CsgNode *node) {
         return;
     }
     Shape *shape = ARENA_NEW(maker->arena, Shape);
-    *shape = shape_prepare(node->object, maker->arena);
+    *shape = shape_prepare(maker->scene, node->object, maker->shared, maker->arena);
     node->shape = shape;
     node->solid = shape_has_inside(shape);
     node->reach = widened(shape_bounds(shape));
@@ -152,6 +153,7 @@ static void narrow_reaches(Csg *csg) {
 Csg csg_create(const Scene *scene, Arena *arena) {
     Maker maker = {.scene = scene,
                    .arena = arena,
+                   .shared = shape_shared_create(arena),
                    .of_object = ARENA_ARRAY(arena, uint32_t, scene->object_count)};
     for (uint32_t i = 0; i < scene->root_count; i++)
         make_node(&maker, scene->roots[i], NO_INDEX, false, 0);

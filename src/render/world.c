@@ -75,7 +75,7 @@ typedef struct {
     uint32_t rank;
     const Leaf *leaf;
     const Prim *prim; // NULL: the hit is on a patch
-    int part;
+    ShapeHit hit;
     PatchHit patch;
 } RayQuery;
 
@@ -91,9 +91,42 @@ static void keep(RayQuery *query, double t, const Leaf *leaf) {
     query->leaf = leaf;
 }
 
+// Of several hits of one primitive at the same depth the last one counts.
+typedef struct {
+    RayQuery *query;
+    const Prim *prim;
+    bool any;
+} PrimQuery;
+
+static double try_solid_hit(void *context, const ShapeHit *hit) {
+    PrimQuery *at = context;
+    RayQuery *query = at->query;
+    at->any = true;
+    bool again = query->prim == at->prim && query->leaf == &at->prim->leaf && hit->t == query->t;
+    if (again) {
+        query->hit = *hit;
+    } else if (counts(query, hit->t, &at->prim->leaf)) {
+        keep(query, hit->t, &at->prim->leaf);
+        query->prim = at->prim;
+        query->hit = *hit;
+    }
+    return query->any && query->leaf ? -INFINITY : query->t;
+}
+
+static void try_solid(RayQuery *query, const Prim *prim) {
+    PrimQuery at = {query, prim, false};
+    shape_visit(&prim->shape, query->ray, query->t_min, query->t, try_solid_hit, &at);
+    query->stats->shape_tests++;
+    query->stats->shape_hits += at.any;
+}
+
 static void try_prim(RayQuery *query, const Prim *prim) {
     if (!(prim->leaf.mask & query->kind))
         return;
+    if (prim->shape.kind == SHAPE_SOLID) {
+        try_solid(query, prim);
+        return;
+    }
     ShapeHit hits[SHAPE_MAX_HITS];
     int count = shape_hits(&prim->shape, query->ray, hits);
     query->stats->shape_tests++;
@@ -103,7 +136,7 @@ static void try_prim(RayQuery *query, const Prim *prim) {
             continue;
         keep(query, hits[i].t, &prim->leaf);
         query->prim = prim;
-        query->part = hits[i].part;
+        query->hit = hits[i];
     }
 }
 
@@ -197,9 +230,11 @@ bool world_intersect(const World *world, const Ray *ray, double t_min, double t_
     hit->t = query.t / length;
     hit->p = vec_madd(unit.org, query.t, unit.dir);
     hit->object = query.leaf->object;
+    hit->texture_count = 0;
     if (query.prim) {
-        Vec2 uv = shape_uv(&query.prim->shape, hit->p, query.part);
-        hit->normal = shape_normal(&query.prim->shape, hit->p, query.part);
+        hit->texture_count = shape_textures(&query.prim->shape, hit->p, &query.hit, hit->textures);
+        Vec2 uv = shape_uv(&query.prim->shape, hit->p, &query.hit);
+        hit->normal = shape_normal(&query.prim->shape, hit->p, &query.hit);
         hit->u = uv.u, hit->v = uv.v;
         hit->bound = 0.0;
     } else {

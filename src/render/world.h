@@ -6,6 +6,7 @@
 
 #include "model/scene.h"
 #include "patch/patch.h"
+#include "shape/shape.h"
 
 // What a ray is for; also the bits of an object's mask (no_image, no_reflection, no_shadow).
 typedef enum {
@@ -28,6 +29,9 @@ typedef struct {
     double u, v;     // texture coordinates; p.x, p.y where the object has no mapping of its own
     double bound;    // patches: the hit's proven bound, else 0
     uint32_t object; // index in scene->objects, a leaf
+    // The primitive's own textures; none: the object's count.
+    uint32_t texture_count;
+    ShapeTexture textures[SHAPE_MAX_TEXTURES];
 } WorldHit;
 
 typedef struct World World;

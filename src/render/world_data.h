@@ -3,7 +3,7 @@
 #ifndef RENDER_WORLD_DATA_H
 #define RENDER_WORLD_DATA_H
 
-#include "render/bvh.h"
+#include "shape/bvh.h"
 #include "render/csg.h"
 #include "render/world.h"
 #include "shape/shape.h"

@@ -54,9 +54,9 @@ int box_hits(const Shape *shape, const Ray *ray, ShapeHit hits[SHAPE_MAX_HITS]) 
         return 0;
     int count = 0;
     if (t_in > NEAREST && isfinite(t_in))
-        hits[count++] = (ShapeHit){t_in, in.side};
+        hits[count++] = (ShapeHit){.t = t_in, .part = in.side};
     if (t_out > NEAREST && isfinite(t_out))
-        hits[count++] = (ShapeHit){t_out, out.side};
+        hits[count++] = (ShapeHit){.t = t_out, .part = out.side};
     return count;
 }
 

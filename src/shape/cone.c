@@ -109,7 +109,7 @@ int cone_hits(const Shape *shape, const Ray *ray, ShapeHit hits[SHAPE_MAX_HITS])
     for (int i = 0; i < sides; i++) {
         double z = org.z + t[i] * dir.z, depth = shift + t[i];
         if (z >= start && z <= 1.0 && depth > NEAREST && depth < SHAPE_FARTHEST)
-            hits[count++] = (ShapeHit){depth / local.scale, PART_SIDE};
+            hits[count++] = (ShapeHit){.t = depth / local.scale, .part = PART_SIDE};
     }
     if (cone->open || !(fabs(dir.z) >= SHAPE_EPSILON))
         return count;
@@ -119,7 +119,7 @@ int cone_hits(const Shape *shape, const Ray *ray, ShapeHit hits[SHAPE_MAX_HITS])
         double s = (level - org.z) / dir.z, depth = shift + s;
         double x = org.x + s * dir.x, y = org.y + s * dir.y;
         if (x * x + y * y <= radius * radius && depth > NEAREST && depth < SHAPE_FARTHEST)
-            hits[count++] = (ShapeHit){depth / local.scale, part};
+            hits[count++] = (ShapeHit){.t = depth / local.scale, .part = part};
     }
     return count;
 }

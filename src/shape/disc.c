@@ -33,7 +33,7 @@ int disc_hits(const Shape *shape, const Ray *ray, ShapeHit hits[SHAPE_MAX_HITS])
     double distance2 = vec_dot(q, q);
     if (!(distance2 >= disc->hole2 && distance2 <= disc->radius2))
         return 0;
-    hits[0] = (ShapeHit){t, 0};
+    hits[0] = (ShapeHit){.t = t, .part = 0};
     return 1;
 }
 

@@ -14,7 +14,7 @@ int plane_hits(const Shape *shape, const Ray *ray, ShapeHit hits[SHAPE_MAX_HITS]
     double t = -(vec_dot(plane->normal, ray->org) - plane->distance) / slope;
     if (!(t >= NEAREST && t <= SHAPE_FARTHEST))
         return 0;
-    hits[0] = (ShapeHit){t, 0};
+    hits[0] = (ShapeHit){.t = t, .part = 0};
     return 1;
 }
 

@@ -2,7 +2,11 @@
 // From an Object to a Shape, and the way from the common calls to each primitive.
 #include "shape/shape.h"
 
-Shape shape_prepare(const Object *object, Arena *arena) {
+#include "shape/solid.h"
+
+#include <assert.h>
+
+Shape shape_prepare(const Scene *scene, const Object *object, ShapeShared *shared, Arena *arena) {
     Shape shape = {.kind = SHAPE_NONE, .inverse = object->inverse};
     if (object->has_transform)
         shape.transform = &object->transform;
@@ -44,6 +48,10 @@ Shape shape_prepare(const Object *object, Arena *arena) {
     case OBJECT_MERGE:
     case OBJECT_INTERSECTION:
     case OBJECT_PATCH:
+    case OBJECT_TYPE_COUNT:
+        break;
+    default:
+        solid_prepare(&shape, scene, object, shared, arena);
         break;
     }
     return shape;
@@ -68,11 +76,26 @@ int shape_hits(const Shape *shape, const Ray *ray, ShapeHit hits[SHAPE_MAX_HITS]
         return disc_hits(shape, ray, hits);
     case SHAPE_TRIANGLE:
         return triangle_hits(shape, ray, hits);
+    case SHAPE_SOLID:
+        assert(!"a solid has any number of hits");
+        break;
     }
     return 0;
 }
 
-static Vec3 normal_of(const Shape *shape, Vec3 p, int part) {
+void shape_visit(const Shape *shape, const Ray *ray, double t_min, double t_max, ShapeVisit visit,
+                 void *context) {
+    if (shape->kind == SHAPE_SOLID) {
+        solid_visit(shape, ray, t_min, t_max, visit, context);
+        return;
+    }
+    ShapeHit hits[SHAPE_MAX_HITS];
+    int count = shape_hits(shape, ray, hits);
+    for (int i = 0; i < count; i++)
+        visit(context, &hits[i]);
+}
+
+static Vec3 normal_of(const Shape *shape, Vec3 p, const ShapeHit *hit) {
     switch (shape->kind) {
     case SHAPE_NONE:
         break;
@@ -81,36 +104,45 @@ static Vec3 normal_of(const Shape *shape, Vec3 p, int part) {
     case SHAPE_SPHERE:
         return sphere_normal(shape, p);
     case SHAPE_BOX:
-        return box_normal(shape, part);
+        return box_normal(shape, hit->part);
     case SHAPE_CYLINDER:
     case SHAPE_CONE:
-        return cone_normal(shape, p, part);
+        return cone_normal(shape, p, hit->part);
     case SHAPE_TORUS:
         return torus_normal(shape, p);
     case SHAPE_DISC:
         return disc_normal(shape);
     case SHAPE_TRIANGLE:
         return shape->as.triangle.normal;
+    case SHAPE_SOLID:
+        return solid_normal(shape, p, hit);
     }
     return vec3(0, 1, 0);
 }
 
-Vec3 shape_normal(const Shape *shape, Vec3 p, int part) {
-    Vec3 normal = normal_of(shape, p, part);
+Vec3 shape_normal(const Shape *shape, Vec3 p, const ShapeHit *hit) {
+    Vec3 normal = normal_of(shape, p, hit);
     return shape->inverse ? vec_neg(normal) : normal;
 }
 
-Vec2 shape_uv(const Shape *shape, Vec3 p, int part) {
+Vec2 shape_uv(const Shape *shape, Vec3 p, const ShapeHit *hit) {
     switch (shape->kind) {
     case SHAPE_SPHERE:
         return sphere_uv(shape, p);
     case SHAPE_BOX:
-        return box_uv(shape, p, part);
+        return box_uv(shape, p, hit->part);
     case SHAPE_TORUS:
         return torus_uv(shape, p);
+    case SHAPE_SOLID:
+        return solid_uv(shape, p, hit);
     default:
         return (Vec2){p.x, p.y};
     }
+}
+
+uint32_t shape_textures(const Shape *shape, Vec3 p, const ShapeHit *hit,
+                        ShapeTexture out[SHAPE_MAX_TEXTURES]) {
+    return shape->kind == SHAPE_SOLID ? solid_textures(shape, p, hit, out) : 0;
 }
 
 bool shape_inside(const Shape *shape, Vec3 p) {
@@ -131,15 +163,22 @@ bool shape_inside(const Shape *shape, Vec3 p) {
         return torus_inside(shape, p) != shape->inverse;
     case SHAPE_DISC:
         return disc_inside(shape, p) != shape->inverse;
+    case SHAPE_SOLID:
+        return solid_inside(shape, p);
     }
     return false;
 }
 
 bool shape_has_inside(const Shape *shape) {
+    if (shape->kind == SHAPE_SOLID)
+        return shape->as.solid.ops->inside != NULL;
     return shape->kind != SHAPE_NONE && shape->kind != SHAPE_TRIANGLE;
 }
 
 bool shape_inside_bounded(const Shape *shape) {
+    if (shape->kind == SHAPE_SOLID &&
+        (shape->as.solid.ops->deep || !isfinite(shape->as.solid.box.high.x)))
+        return false;
     return shape->kind != SHAPE_PLANE && shape->kind != SHAPE_DISC && !shape->inverse;
 }
 
@@ -162,6 +201,8 @@ Box shape_bounds(const Shape *shape) {
         return disc_bounds(shape);
     case SHAPE_TRIANGLE:
         return triangle_bounds(shape);
+    case SHAPE_SOLID:
+        return solid_bounds(shape);
     }
     return box_empty();
 }

@@ -10,6 +10,7 @@
 #define SHAPE_SHAPE_H
 
 #include "model/scene.h"
+#include "shape/facet.h"
 
 // First member: nothing to hit and no inside (no radius, no length, a flattening transform).
 typedef enum {
@@ -22,6 +23,7 @@ typedef enum {
     SHAPE_TORUS,
     SHAPE_DISC,
     SHAPE_TRIANGLE,
+    SHAPE_SOLID, // all others: see solid.h
 } ShapeKind;
 
 typedef struct {
@@ -45,17 +47,19 @@ typedef struct {
     double radius2, hole2;
 } DiscData;
 
-// Corners with the orientation of their projection along `axis` made positive.
+typedef struct SolidOps SolidOps;
+
 typedef struct {
-    Vec3 p[3], normal;
-    double distance; // normal . p
-    int axis;        // the largest component of the normal
-} TriangleData;
+    const SolidOps *ops;
+    const void *data;
+    Box box; // in local space
+} SolidData;
 
 typedef struct {
     ShapeKind kind;
     bool inverse;               // flips the normal and the inside; never set for planes
     const Transform *transform; // local to world; NULL: local space is the world
+    const uint32_t *textures;   // what the numbers of a mesh stand for
     union {
         PlaneShape plane;
         SphereData sphere;
@@ -63,18 +67,24 @@ typedef struct {
         ConeData cone; // also the cylinder
         TorusData torus;
         DiscData disc;
-        TriangleData triangle;
+        Facet triangle;
+        SolidData solid;
     } as;
 } Shape;
 
 enum { SHAPE_MAX_HITS = 4 };
 
 // part: which piece of the surface was hit, in the primitive's own numbering (a side of the box, a
-// cap of the cone); to be handed back to shape_normal and shape_uv.
+// cap of the cone); keep: what else it wants to remember of the hit. To be handed back to
+// shape_normal and shape_uv.
 typedef struct {
     double t;
     int part;
+    Vec3 keep;
 } ShapeHit;
+
+// Takes a hit; returns the depth beyond which hits are of no more interest.
+typedef double (*ShapeVisit)(void *context, const ShapeHit *hit);
 
 // Hits farther than this do not exist for most primitives (POV-Ray's limit; in local units for
 // sphere, cone and cylinder under a transform).
@@ -82,20 +92,36 @@ typedef struct {
 // POV-Ray's nearly zero: directions along a surface, and slack of inside tests.
 #define SHAPE_EPSILON 1e-10
 
-// object: any type from OBJECT_PLANE on. What must be kept beside the object goes to arena; the
-// object must outlive the shape.
-Shape shape_prepare(const Object *object, Arena *arena);
+// object: any type from OBJECT_PLANE on. What must be kept beside the object goes to arena; scene
+// and object must outlive the shape. What copies of an object have in common is looked up in, and
+// added to, shared (zeroed at first, one for all shapes of a scene).
+typedef struct ShapeShared ShapeShared;
+ShapeShared *shape_shared_create(Arena *arena);
+Shape shape_prepare(const Scene *scene, const Object *object, ShapeShared *shared, Arena *arena);
 
 // All hits that lie beyond the primitive's own least depth, in POV-Ray's order: of several at the
 // same depth the last one counts. ray->dir must be of unit length. Returns how many; none is NaN.
+// Not for SHAPE_SOLID, which may have any number.
 int shape_hits(const Shape *shape, const Ray *ray, ShapeHit hits[SHAPE_MAX_HITS]);
+// The same for every kind, one by one. Those that lie outside t_min..t_max may be left out.
+void shape_visit(const Shape *shape, const Ray *ray, double t_min, double t_max, ShapeVisit visit,
+                 void *context);
+// The primitive's own textures at a hit, weights adding up to 1; up to SHAPE_MAX_TEXTURES. None:
+// the object's counts.
+typedef struct {
+    uint32_t texture; // in the scene; NO_INDEX: the object's
+    float weight;
+} ShapeTexture;
+enum { SHAPE_MAX_TEXTURES = 8 };
+uint32_t shape_textures(const Shape *shape, Vec3 p, const ShapeHit *hit,
+                        ShapeTexture out[SHAPE_MAX_TEXTURES]);
 // Unit normal at p, the point of a hit; points out of the inside, `inverse` applied.
-Vec3 shape_normal(const Shape *shape, Vec3 p, int part);
+Vec3 shape_normal(const Shape *shape, Vec3 p, const ShapeHit *hit);
 // Texture coordinates at p. Sphere, box and torus have a mapping of their own; for the others
 // POV-Ray takes the world's x and y.
-Vec2 shape_uv(const Shape *shape, Vec3 p, int part);
+Vec2 shape_uv(const Shape *shape, Vec3 p, const ShapeHit *hit);
 bool shape_inside(const Shape *shape, Vec3 p); // `inverse` applied
-// False for triangles and SHAPE_NONE: no point is ever inside.
+// False for triangles, SHAPE_NONE and the like: no point is ever inside.
 bool shape_has_inside(const Shape *shape);
 // Holds the surface (infinite in the directions where that is). The inside too, unless it is
 // unbounded: then shape_inside_bounded is false.

@@ -29,7 +29,7 @@ int sphere_hits(const Shape *shape, const Ray *ray, ShapeHit hits[SHAPE_MAX_HITS
     for (int i = 0; i < 2; i++) {
         double t = i == 0 ? middle - half : middle + half;
         if (t > NEAREST && t < SHAPE_FARTHEST)
-            hits[count++] = (ShapeHit){t / local.scale, 0};
+            hits[count++] = (ShapeHit){.t = t / local.scale, .part = 0};
     }
     return count;
 }

@@ -42,7 +42,7 @@ int torus_hits(const Shape *shape, const Ray *ray, ShapeHit hits[SHAPE_MAX_HITS]
     for (int i = 0; i < roots; i++) {
         double depth = shift + t[i];
         if (depth > NEAREST && depth / local.scale < SHAPE_FARTHEST)
-            hits[count++] = (ShapeHit){depth / local.scale, 0};
+            hits[count++] = (ShapeHit){.t = depth / local.scale, .part = 0};
     }
     return count;
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // A tree of boxes, four children to a node, over items that only their boxes describe. Built once;
 // read-only then, any number of threads.
-#ifndef RENDER_BVH_H
-#define RENDER_BVH_H
+#ifndef SHAPE_BVH_H
+#define SHAPE_BVH_H
 
 #include "base/arena.h"
 #include "base/vec.h"

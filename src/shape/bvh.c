@@ -2,7 +2,7 @@
 // The tree is built from the top: a node's range is cut in two by the surface area heuristic over
 // bins of the centres (Wald 2007), the larger part again, until there are four parts or all are
 // small. It is walked with a stack of its own, the nearest child first.
-#include "render/bvh.h"
+#include "shape/bvh.h"
 
 #include "base/array.h"
 

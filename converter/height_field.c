@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: MIT
+// height_field (facts: rendering 8): the picture, or the values of a function, become numbers of 16
+// bits, as POV-Ray has them: grey as it is, two bytes from red and green, or 256 times the index
+// into a palette.
+#include "converter/nodes.h"
+
+#include "image/gif.h"
+#include "image/picture.h"
+
+#include <math.h>
+
+static double clip16(double v) { return v >= 65535.0 ? 65535.0 : v > 0.0 ? floor(v) : 0.0; }
+
+enum { MAX_SIDE = 1 << 14 };
+
+// The value as POV-Ray has it in single precision: the file's number divided by the largest.
+static float value_of(const StoredPicture *picture, float value) {
+    if (picture->bits > 16)
+        return value;
+    float largest = picture->bits > 8 ? 65535.0F : 255.0F;
+    return roundf(value * largest) / largest;
+}
+
+// On its way into a grey picture POV-Ray weighs the value as if it were three, and cuts what the
+// rounding leaves: many values lose one step of the file's (measured).
+static double grey_height(float v, float largest) {
+    float grey = floorf((0.297F * v + 0.589F * v + 0.114F * v) * largest) / largest;
+    return clip16((double)(grey * 65535.0F));
+}
+
+static double height_of(const StoredPicture *picture, const float *pixel) {
+    float r = value_of(picture, pixel[0]);
+    if (picture->channels < 3)
+        return picture->bits > 16 ? clip16((double)(r * 65535.0F))
+                                  : grey_height(r, picture->bits > 8 ? 65535.0F : 255.0F);
+    float g = value_of(picture, pixel[1]), b = value_of(picture, pixel[2]);
+    if (picture->bits > 8)
+        return clip16((double)((0.297F * r + 0.589F * g + 0.114F * b) * 65535.0F));
+    return clip16(((double)r * 256.0 + (double)g) * 255.0);
+}
+
+static HeightMap *make_map(Converter *cv, int width, int depth) {
+    HeightMap *map = ARENA_NEW(cv->arena, HeightMap);
+    map->width = width;
+    map->depth = depth;
+    map->count = (uint32_t)width * (uint32_t)depth;
+    map->heights = ARENA_ARRAY(cv->arena, double, map->count);
+    return map;
+}
+
+static void check_size(Converter *cv, const Token *token, double width, double height) {
+    if (width >= 2 && height >= 2 && width <= MAX_SIDE && height <= MAX_SIDE)
+        return;
+    Loc loc = token_loc(cv, token);
+    die_at(&loc, "a picture of %g x %g makes no height_field", width, height);
+}
+
+// The picture's last row is at z = 0.
+static HeightMap *map_of_values(Converter *cv, const StoredPicture *picture) {
+    int width = picture->width, height = picture->height;
+    HeightMap *map = make_map(cv, width, height);
+    for (int z = 0; z < height; z++)
+        for (int x = 0; x < width; x++) {
+            size_t at = (size_t)(height - 1 - z) * (size_t)width + (size_t)x;
+            double *out = &map->heights[(size_t)z * (size_t)width + (size_t)x];
+            if (!picture->places)
+                *out = height_of(picture, picture->values + at * (size_t)picture->channels);
+            else if (picture->grey_palette)
+                *out =
+                    grey_height((float)picture->palette[picture->places[at]][0] / 255.0F, 255.0F);
+            else
+                *out = picture->places[at] * 256.0;
+        }
+    return map;
+}
+
+static const HeightMap *map_of_picture(Converter *cv, const Picture *source, const Token *token) {
+    Arena *scratch = arena_create();
+    StoredPicture gif = {0};
+    const StoredPicture *picture = &gif;
+    gif.places = gif_read(scratch, source->path, &gif.width, &gif.height);
+    if (!gif.places)
+        picture = picture_read(scratch, source->path, source->type == PICTURE_PNG);
+    check_size(cv, token, picture->width, picture->height);
+    const HeightMap *map = map_of_values(cv, picture);
+    arena_destroy(scratch);
+    return map;
+}
+
+// function W, H { BODY }. Row 0 of the values is the picture's first.
+static const HeightMap *map_of_function(Converter *cv, const Token *token) {
+    double width = floor(parse_float(cv));
+    optional_comma(cv);
+    double height = floor(parse_float(cv));
+    optional_comma(cv);
+    check_size(cv, token, width, height);
+    const UserFunction *function = parse_function(cv);
+    HeightMap *map = make_map(cv, (int)width, (int)height);
+    for (int row = 0; row < map->depth; row++)
+        for (int x = 0; x < map->width; x++) {
+            double arguments[3] = {x / (width - 1), row / (height - 1), 0}, value[5] = {0};
+            user_function_evaluate(cv, function, arguments, value);
+            // Kept in a picture of 16 bits in between.
+            double stored = floor((double)(float)fmin(fmax(value[0], 0.0), 1.0) * 65535.0 + 0.5);
+            map->heights[(size_t)(map->depth - 1 - row) * (size_t)map->width + (size_t)x] = stored;
+        }
+    return map;
+}
+
+void parse_height_field(Converter *cv, ObjectNode *object) {
+    HeightFieldShape *field = &object->object.shape.height_field;
+    const Token *token = peek_token(cv);
+    const HeightMap *map;
+    if (accept(cv, KW_function)) {
+        map = map_of_function(cv, token);
+    } else {
+        Picture source;
+        parse_image(cv, &source, false);
+        map = map_of_picture(cv, &source, token);
+    }
+    for (;;) {
+        if (accept(cv, KW_water_level))
+            field->water_level = 65536.0 * parse_float(cv);
+        else if (accept(cv, KW_smooth))
+            field->smooth = true;
+        else
+            break;
+    }
+    object->map = map;
+    object->object.has_transform = true;
+    object->object.transform =
+        transform_scale(vec3(1.0 / (map->width - 1), 1.0 / 65536.0, 1.0 / (map->depth - 1)));
+}

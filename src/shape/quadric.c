@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+// Quadrics: a quadratic in the depth. POV-Ray wants a discriminant above zero.
+#include "shape/solid.h"
+
+static double slope(const double *coefficient, double a, double b) {
+    return coefficient[0] * a + coefficient[1] * b;
+}
+
+// Half the gradient without the linear terms, at v: the matrix times v.
+static Vec3 matrix_times(const QuadricShape *q, Vec3 v) {
+    const double x[2] = {0.5 * q->mixed.x, 0.5 * q->mixed.y};
+    const double y[2] = {0.5 * q->mixed.x, 0.5 * q->mixed.z};
+    const double z[2] = {0.5 * q->mixed.y, 0.5 * q->mixed.z};
+    return vec3(q->square.x * v.x + slope(x, v.y, v.z), q->square.y * v.y + slope(y, v.x, v.z),
+                q->square.z * v.z + slope(z, v.x, v.y));
+}
+
+static void hits(const void *data, const Ray *ray, HitSink *sink) {
+    const QuadricShape *q = data;
+    Vec3 md = matrix_times(q, ray->dir), mo = matrix_times(q, ray->org);
+    double a = vec_dot(md, ray->dir);
+    double b = vec_dot(mo, ray->dir) + 0.5 * vec_dot(q->linear, ray->dir);
+    double c = vec_dot(mo, ray->org) + vec_dot(q->linear, ray->org) + q->constant;
+    const Vec3 none = {0, 0, 0};
+    // a t^2 + 2 b t + c; the roots' sizes tell when a is as good as none.
+    double scale = fmax(fabs(b), fabs(c));
+    if (fabs(a) <= 1e-15 * scale) {
+        if (b != 0.0)
+            sink_put(sink, -0.5 * c / b, 0, none);
+        return;
+    }
+    double discriminant = b * b - a * c;
+    if (!(discriminant > 0.0))
+        return;
+    double s = -(b + copysign(sqrt(discriminant), b));
+    double t0 = s / a, t1 = s != 0.0 ? c / s : t0;
+    sink_put(sink, fmin(t0, t1), 0, none);
+    sink_put(sink, fmax(t0, t1), 0, none);
+}
+
+static Vec3 normal(const void *data, Vec3 p, const ShapeHit *hit) {
+    const QuadricShape *q = data;
+    (void)hit;
+    return vec_add(vec_scale(matrix_times(q, p), 2.0), q->linear);
+}
+
+static bool inside(const void *data, Vec3 p) {
+    const QuadricShape *q = data;
+    return vec_dot(vec_add(matrix_times(q, p), q->linear), p) + q->constant <= 0.0;
+}
+
+static const SolidOps OPS = {
+    .near = 1e-6, .far = SHAPE_FARTHEST, .hits = hits, .normal = normal, .inside = inside};
+
+SolidData quadric_prepare(const QuadricShape *quadric, Arena *arena) {
+    (void)arena;
+    return (SolidData){&OPS, quadric, SOLID_INFINITE};
+}

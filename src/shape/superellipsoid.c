@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: MIT
+// Superellipsoids: (|x|^(2/e) + |y|^(2/e))^(e/n) + |z|^(2/n) = 1 within the unit cube. With e and n
+// up to 2 the left side is a power of a norm, so that its level is convex: the ray's least value is
+// found by narrowing, and each crossing lies on one side of it. Else the ray is cut where it passes
+// the planes of symmetry, and each smooth piece is searched in steps.
+#include "shape/solid.h"
+
+#include <stdlib.h>
+
+typedef struct {
+    double inner, outer, z; // exponents: 2/e, e/n, 2/n
+    bool convex;
+} Super;
+
+static double value(const Super *s, Vec3 p) {
+    return pow(pow(fabs(p.x), s->inner) + pow(fabs(p.y), s->inner), s->outer) +
+           pow(fabs(p.z), s->z) - 1.0;
+}
+
+static double value_on(const Super *s, const Ray *ray, double t) {
+    return value(s, vec_madd(ray->org, t, ray->dir));
+}
+
+// A change of sign in low..high: the method of false position with halving (ITP's simple cousin,
+// "Illinois"), to neighbouring doubles or 100 steps, when it is far below any tolerance.
+static double crossing(const Super *s, const Ray *ray, double low, double at_low, double high,
+                       double at_high) {
+    double x = low;
+    for (int step = 0; step < 100; step++) {
+        double next = step % 3 == 2 ? 0.5 * (low + high)
+                                    : (low * at_high - high * at_low) / (at_high - at_low);
+        if (!(next > low && next < high))
+            next = 0.5 * (low + high);
+        if (!(next > low && next < high) || fabs(next - x) < 1e-15 * fabs(next))
+            return next;
+        x = next;
+        double at = value_on(s, ray, x);
+        if (at == 0.0)
+            return x;
+        if ((at < 0.0) == (at_low < 0.0)) {
+            low = x, at_low = at;
+            at_high *= 0.5;
+        } else {
+            high = x, at_high = at;
+            at_low *= 0.5;
+        }
+    }
+    return x;
+}
+
+// The least value in low..high if there is one valley (golden section: 0.618^60 < 1e-12).
+static double valley(const Super *s, const Ray *ray, double low, double high, double sign) {
+    const double part = 0.3819660112501051;
+    double a = low + part * (high - low), b = high - part * (high - low);
+    double at_a = sign * value_on(s, ray, a), at_b = sign * value_on(s, ray, b);
+    for (int step = 0; step < 60; step++) {
+        if (at_a < at_b) {
+            high = b, b = a, at_b = at_a;
+            a = low + part * (high - low);
+            at_a = sign * value_on(s, ray, a);
+        } else {
+            low = a, a = b, at_a = at_b;
+            b = high - part * (high - low);
+            at_b = sign * value_on(s, ray, b);
+        }
+        // Any point below the surface will do.
+        if (sign * fmin(at_a, at_b) < 0.0 && sign > 0.0)
+            break;
+    }
+    return at_a < at_b ? a : b;
+}
+
+static void put_crossing(const Super *s, const Ray *ray, double low, double at_low, double high,
+                         double at_high, HitSink *sink) {
+    if ((at_low < 0.0) != (at_high < 0.0))
+        sink_put(sink, crossing(s, ray, low, at_low, high, at_high), 0, vec3(0, 0, 0));
+}
+
+static void hits_convex(const Super *s, const Ray *ray, double low, double high, HitSink *sink) {
+    double at_low = value_on(s, ray, low), at_high = value_on(s, ray, high);
+    double middle = low, at_middle = at_low;
+    if (at_low >= 0.0 && at_high >= 0.0) {
+        middle = valley(s, ray, low, high, 1.0);
+        at_middle = value_on(s, ray, middle);
+    } else if (at_high < at_low) {
+        middle = high, at_middle = at_high;
+    }
+    put_crossing(s, ray, low, at_low, middle, at_middle, sink);
+    put_crossing(s, ray, middle, at_middle, high, at_high, sink);
+}
+
+enum { STEPS = 12 };
+
+// A smooth piece; between steps that have one sign a bend towards the other is looked into.
+static void hits_piece(const Super *s, const Ray *ray, double low, double high, HitSink *sink) {
+    double t[STEPS + 1], at[STEPS + 1];
+    for (int i = 0; i <= STEPS; i++) {
+        t[i] = low + (high - low) * i / STEPS;
+        at[i] = value_on(s, ray, t[i]);
+    }
+    for (int i = 0; i < STEPS; i++) {
+        if ((at[i] < 0.0) == (at[i + 1] < 0.0)) {
+            double sign = at[i] < 0.0 ? -1.0 : 1.0;
+            double before = i > 0 ? sign * at[i - 1] : INFINITY;
+            double after = i + 2 <= STEPS ? sign * at[i + 2] : INFINITY;
+            bool bends = sign * at[i] <= before && sign * at[i + 1] <= after;
+            if (!bends)
+                continue;
+            double turn = valley(s, ray, t[i], t[i + 1], sign), at_turn = value_on(s, ray, turn);
+            put_crossing(s, ray, t[i], at[i], turn, at_turn, sink);
+            put_crossing(s, ray, turn, at_turn, t[i + 1], at[i + 1], sink);
+            continue;
+        }
+        put_crossing(s, ray, t[i], at[i], t[i + 1], at[i + 1], sink);
+    }
+}
+
+static int ascending(const void *a, const void *b) {
+    double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+enum { PLANES = 9 };
+
+static void hits_by_pieces(const Super *s, const Ray *ray, double low, double high, HitSink *sink) {
+    static const double planes[PLANES][3] = {{1, 0, 0},  {0, 1, 0},  {0, 0, 1},
+                                             {1, 1, 0},  {1, -1, 0}, {1, 0, 1},
+                                             {1, 0, -1}, {0, 1, 1},  {0, 1, -1}};
+    double cuts[PLANES + 2];
+    int count = 0;
+    cuts[count++] = low;
+    for (int i = 0; i < PLANES; i++) {
+        Vec3 n = vec3(planes[i][0], planes[i][1], planes[i][2]);
+        double t = -vec_dot(n, ray->org) / vec_dot(n, ray->dir);
+        if (t > low && t < high)
+            cuts[count++] = t;
+    }
+    cuts[count++] = high;
+    qsort(cuts, (size_t)count, sizeof *cuts, ascending);
+    for (int i = 0; i + 1 < count; i++)
+        if (cuts[i] < cuts[i + 1])
+            hits_piece(s, ray, cuts[i], cuts[i + 1], sink);
+}
+
+// The cube in which POV-Ray looks.
+static const double CUBE = 1.0001;
+
+static bool cube_range(const Ray *ray, double *low, double *high) {
+    for (int axis = 0; axis < 3; axis++) {
+        double o = vec_get(ray->org, axis), d = vec_get(ray->dir, axis);
+        if (d == 0.0) {
+            if (fabs(o) > CUBE)
+                return false;
+            continue;
+        }
+        double a = (-CUBE - o) / d, b = (CUBE - o) / d;
+        *low = fmax(*low, fmin(a, b));
+        *high = fmin(*high, fmax(a, b));
+    }
+    return *low < *high;
+}
+
+static void hits(const void *data, const Ray *ray, HitSink *sink) {
+    const Super *s = data;
+    double low = -INFINITY, high = INFINITY;
+    if (!cube_range(ray, &low, &high) || high <= 0.0 || low > sink->t_max)
+        return;
+    if (s->convex)
+        hits_convex(s, ray, low, high, sink);
+    else
+        hits_by_pieces(s, ray, low, high, sink);
+}
+
+// d|v|^k / dv
+static double slope(double v, double k) {
+    return v == 0.0 ? 0.0 : copysign(k * pow(fabs(v), k - 1.0), v);
+}
+
+static Vec3 normal(const void *data, Vec3 p, const ShapeHit *hit) {
+    const Super *s = data;
+    (void)hit;
+    double xy = pow(fabs(p.x), s->inner) + pow(fabs(p.y), s->inner);
+    double k = xy > 0.0 ? s->outer * pow(xy, s->outer - 1.0) : 0.0;
+    Vec3 n = vec3(k * slope(p.x, s->inner), k * slope(p.y, s->inner), slope(p.z, s->z));
+    return isfinite(vec_dot(n, n)) && vec_dot(n, n) > 0.0 ? n : p;
+}
+
+static bool inside(const void *data, Vec3 p) { return value(data, p) < SHAPE_EPSILON; }
+
+static const SolidOps OPS = {
+    .near = 1e-4, .far = SHAPE_FARTHEST, .hits = hits, .normal = normal, .inside = inside};
+
+SolidData superellipsoid_prepare(const SuperellipsoidShape *shape, Arena *arena) {
+    Super *s = ARENA_NEW(arena, Super);
+    *s = (Super){2.0 / shape->e, shape->e / shape->n, 2.0 / shape->n,
+                 shape->e <= 2.0 && shape->n <= 2.0};
+    return (SolidData){&OPS, s, {{-CUBE, -CUBE, -CUBE}, {CUBE, CUBE, CUBE}}};
+}

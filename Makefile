@@ -107,6 +107,12 @@ build/libqipatch.a: $(filter build/src/patch/% build/src/kernel/% build/src/base
 	@rm -f $@
 	@ar rcs $@ build/qipatch.o
 
+# Rays at all extremes against an exact oracle.
+STRESS_OBJ = $(patsubst %.c,build/%.o,$(wildcard tests/programs/stress.c tests/stress*.c tests/ray_oracle.c))
+build/stress: $(STRESS_OBJ) $(filter build/src/base/% build/src/patch/% build/src/kernel/%,$(OBJ))
+	@echo '  LD  $@'
+	@$(CC) -fopenmp -o $@ $^ -lm -ldl
+
 # The programs under the sanitizers, for tests that run them; and the cmocka programs.
 build/test/pov2qi: build/test/converter/main.o $(TEST_OBJ) | build/test/$(IMAGE_LIB)
 	@echo '  LD  $@'
@@ -192,5 +198,10 @@ bench: deps
 bench-rays: build/bench_rays
 	@build/bench_rays
 
-.PHONY: install all deps test test-examples fuzz lint demo gallery bench bench-rays clean
+# Minutes: 1e8 rays at all extremes, judged by an exact oracle; STRESS="--rays 1e6 --case cusp" for less.
+stress: deps
+	@$(MAKE) --no-print-directory -j$$(nproc) build/stress
+	@build/stress $(STRESS)
+
+.PHONY: install all deps test test-examples fuzz lint demo gallery bench bench-rays stress clean
 -include $(shell find build -name '*.d' 2>/dev/null)

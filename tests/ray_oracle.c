@@ -1,31 +1,171 @@
 // SPDX-License-Identifier: MIT
-// In the ray's frame S = (x, y, z) and roots are x = y = 0. A cell whose control points have all
-// x or all y of one sign holds none; a cell over which the Jacobian, taken with independent
-// intervals for its four entries, cannot vanish holds one at most, and Newton tells. All others are
-// halved.
 #include "ray_oracle.h"
 
-enum { SIDE = 17, POINTS = SIDE * SIDE, DEPTH = 90, BUDGET = 20000 };
+#include <stdlib.h>
+#include <string.h>
+
+enum {
+    SIDE = 17,
+    POINTS = SIDE * SIDE,
+    DEPTH = 200, // halvings of one cell: __float128 has 113 bits each way
+    QUICK_DEPTH = 110,
+    QUICK_BUDGET = 600,
+    EXACT_BUDGET = 4000,
+    NEAR_BUDGET = 2000,
+};
+#define MARGIN 0x1p-6
+
+typedef struct {
+    const PatchDef *def;
+    const Ray *ray;
+    int nu, nv;
+    double growth; // (1 + 2 MARGIN)^(nu + nv)
+    RayOracle *out;
+    int first; // item of this patch in out
+} Task;
+
+// ---- Items
+
+static bool overlap(double a, double ra, double b, double rb) { return fabs(a - b) <= ra + rb; }
+
+// The middle and half size of the hull of two spans.
+static void join(double *a, double *ra, double b, double rb) {
+    double low = fmin(*a - *ra, b - rb), high = fmax(*a + *ra, b + rb);
+    *a = 0.5 * low + 0.5 * high;
+    *ra = (0.5 * high - 0.5 * low) * (1.0 + 0x1p-50);
+}
+
+static void join_items(RayOracleRoot *to, const RayOracleRoot *from) {
+    join(&to->t, &to->dt, from->t, from->dt);
+    join(&to->u, &to->du, from->u, from->du);
+    join(&to->v, &to->dv, from->v, from->dv);
+}
+
+static double sine_at(const Task *task, double u, double v) {
+    Vec3 s[3];
+    ray_oracle_jet(task->def, u, v, s);
+    const long double a[3] = {s[1].x, s[1].y, s[1].z}, b[3] = {s[2].x, s[2].y, s[2].z};
+    const long double d[3] = {task->ray->dir.x, task->ray->dir.y, task->ray->dir.z};
+    long double across = 0, n2 = 0, d2 = 0;
+    for (int k = 0; k < 3; k++) {
+        int i = (k + 1) % 3, j = (k + 2) % 3;
+        long double n = a[i] * b[j] - a[j] * b[i];
+        across += n * d[k];
+        n2 += n * n;
+        d2 += d[k] * d[k];
+    }
+    return n2 > 0 ? (double)(fabsl(across) / sqrtl(n2 * d2)) : 0.0;
+}
+
+// A root found in two cells is one; open cells that touch become one.
+static void add_root(Task *task, RayOracleRoot item) {
+    RayOracle *out = task->out;
+    for (int i = task->first; i < out->count; i++) {
+        RayOracleRoot *other = &out->root[i];
+        if (!overlap(other->u, other->du, item.u, item.du) ||
+            !overlap(other->v, other->dv, item.v, item.dv) ||
+            (other->kind == ROOT_OPEN) != (item.kind == ROOT_OPEN))
+            continue;
+        if (item.kind != ROOT_OPEN)
+            return;
+        join_items(other, &item);
+        return;
+    }
+    if (out->count == RAY_ORACLE_ROOTS) { // the last takes what finds no room
+        RayOracleRoot *last = &out->root[out->count - 1];
+        out->open += last->kind == ROOT_CERTAIN;
+        last->kind = ROOT_OPEN;
+        join_items(last, &item);
+        return;
+    }
+    if (item.kind != ROOT_OPEN)
+        item.sine = sine_at(task, fmin(fmax(item.u, 0.0), 1.0), fmin(fmax(item.v, 0.0), 1.0));
+    out->open += item.kind != ROOT_CERTAIN;
+    out->root[out->count++] = item;
+}
+
+static void add_item(Task *task, double t, double dt, double u, double v, double du, double dv,
+                     RayOracleKind kind) {
+    // Rounding to double, if it came from more.
+    dt += 0x1p-52 * fabs(t);
+    add_root(task, (RayOracleRoot){kind, t, u, v, dt, du, dv, 0.0});
+}
+
+// ---- The search
+
+#define REAL double
+#define UNIT 0x1p-53
+#define WIDE long double
+#define WIDE_UNIT 0x1p-64L
+#define NAME(x) quick_##x
+#include "ray_oracle_cells.h"
+#undef REAL
+#undef UNIT
+#undef WIDE
+#undef WIDE_UNIT
+#undef NAME
+
+#define REAL __float128
+#define UNIT ((__float128)0x1p-113)
+#define WIDE __float128
+#define WIDE_UNIT ((__float128)0x1p-113)
+#define NAME(x) exact_##x
+#include "ray_oracle_cells.h"
+
+void ray_oracle_find(RayOracle *oracle, const PatchDef *def, const Ray *ray,
+                     RayOraclePrecision precision) {
+    Task task = {def, ray, (int)def->degree_u, (int)def->degree_v, 0.0, oracle, oracle->count};
+    task.growth = pow(1.0 + 2.0 * MARGIN, task.nu + task.nv);
+    if (precision == ORACLE_QUICK)
+        quick_find(&task, QUICK_BUDGET, QUICK_DEPTH);
+    else
+        exact_find(&task, EXACT_BUDGET, DEPTH);
+}
+
+void ray_oracle(RayOracle *oracle, const PatchDef *def, const Ray *ray, double t_min,
+                double t_max) {
+    RayOracle all = {.count = 0};
+    ray_oracle_find(&all, def, ray, ORACLE_QUICK);
+    if (all.open) {
+        all.count = all.open = 0;
+        ray_oracle_find(&all, def, ray, ORACLE_EXACT);
+    }
+    Box box = box_empty();
+    for (uint32_t k = 0; k < (def->degree_u + 1) * (def->degree_v + 1); k++)
+        box = box_extend(box, def->points[k]);
+    Vec3 d = vec_sub(box.high, box.low);
+    double near =
+        1e-8 * fmax(d.x, fmax(d.y, d.z)) / hypot(ray->dir.x, hypot(ray->dir.y, ray->dir.z));
+    for (int k = 0; k < all.count; k++) {
+        const RayOracleRoot *root = &all.root[k];
+        double wide = near + root->dt;
+        oracle->doubtful |= fabs(root->t - t_min) < wide || fabs(root->t - t_max) < wide;
+        if (!(root->t >= t_min && root->t < t_max))
+            continue;
+        double edge = fmin(fmin(root->u, 1.0 - root->u), fmin(root->v, 1.0 - root->v));
+        oracle->doubtful |= root->kind != ROOT_CERTAIN || edge < 1e-8;
+        for (int i = 0; i < oracle->count; i++)
+            oracle->doubtful |= fabs(oracle->root[i].t - root->t) < near;
+        if (root->kind == ROOT_CERTAIN && oracle->count < RAY_ORACLE_ROOTS)
+            oracle->root[oracle->count++] = *root;
+    }
+}
+
+// ---- Near the ray
 
 typedef long double Real;
 
 typedef struct {
-    Real p[3][POINTS];
-    Real u0, u1, v0, v1;
-} Cell;
+    Real p[3][POINTS]; // across twice, and t
+} Strip;
 
 typedef struct {
-    const PatchDef *def;
-    Cell whole;
-    Real length; // of dir
-    Real noise;  // a coordinate below this is zero
-    Real size;   // of the patch
-    double t_min, t_max;
-    int work;
-    RayOracle *out;
-} Task;
+    int nu, nv, budget;
+    Real reach;  // lateral
+    Real t0, t1; // of one step of depth
+} Tube;
 
-static void casteljau(Real *low, Real *high, const Real *from, int n, int step) {
+static void halve_line(Real *low, Real *high, const Real *from, int n, int step) {
     Real row[SIDE];
     for (int i = 0; i <= n; i++)
         row[i] = from[i * step];
@@ -37,32 +177,139 @@ static void casteljau(Real *low, Real *high, const Real *from, int n, int step) 
     }
 }
 
-static void halve(const PatchDef *def, const Cell *from, bool across_u, Cell *low, Cell *high) {
-    int nu = (int)def->degree_u, nv = (int)def->degree_v;
-    for (int axis = 0; axis < 3; axis++) {
-        const Real *p = from->p[axis];
-        Real *a = low->p[axis], *b = high->p[axis];
-        if (across_u) {
-            for (int j = 0; j <= nv; j++)
-                casteljau(a + j, b + j, p + j, nu, nv + 1);
-        } else {
-            for (int i = 0; i < (nu + 1) * (nv + 1); i += nv + 1)
-                casteljau(a + i, b + i, p + i, nv, 1);
+static Real least_of(const Real *p, int count) {
+    Real least = p[0];
+    for (int k = 1; k < count; k++)
+        least = p[k] < least ? p[k] : least;
+    return least;
+}
+
+static Real most_of(const Real *p, int count) {
+    Real most = p[0];
+    for (int k = 1; k < count; k++)
+        most = p[k] > most ? p[k] : most;
+    return most;
+}
+
+static Real larger(Real a, Real b) { return a > b ? a : b; }
+
+// Which direction is longer, depth counted as far as it exceeds its step?
+static bool longer_in_u(const Tube *tube, const Strip *s) {
+    int nu = tube->nu, nv = tube->nv, count = (nu + 1) * (nv + 1);
+    Real size[2] = {0, 0};
+    for (int c = 0; c < 3; c++) {
+        Real scale = c < 2 ? 1 : tube->reach / (tube->t1 - tube->t0);
+        for (int k = 0; k < count; k++) {
+            if (k > nv)
+                size[0] = larger(size[0], scale * nu * fabsl(s->p[c][k] - s->p[c][k - nv - 1]));
+            if (k % (nv + 1))
+                size[1] = larger(size[1], scale * nv * fabsl(s->p[c][k] - s->p[c][k - 1]));
         }
     }
-    low->u0 = high->u0 = from->u0;
-    low->u1 = high->u1 = from->u1;
-    low->v0 = high->v0 = from->v0;
-    low->v1 = high->v1 = from->v1;
-    if (across_u)
-        low->u1 = high->u0 = (from->u0 + from->u1) / 2;
-    else
-        low->v1 = high->v0 = (from->v0 + from->v1) / 2;
+    return size[0] >= size[1];
 }
+
+// Is a part of the strip within reach of the ray, at a depth within half a step of the tube's?
+static bool enters(Tube *tube, const Strip *s, int depth) {
+    int nu = tube->nu, nv = tube->nv, count = (nu + 1) * (nv + 1);
+    Real low[3], high[3];
+    for (int c = 0; c < 3; c++) {
+        low[c] = least_of(s->p[c], count);
+        high[c] = most_of(s->p[c], count);
+        Real end[2] = {c < 2 ? -tube->reach : tube->t0, c < 2 ? tube->reach : tube->t1};
+        if (low[c] > end[1] || high[c] < end[0])
+            return false;
+    }
+    if (depth == 160 || --tube->budget < 0)
+        return false;
+    bool inside = hypotl(larger(-low[0], high[0]), larger(-low[1], high[1])) <= tube->reach;
+    bool level = high[2] - low[2] <= 0.5L * (tube->t1 - tube->t0);
+    if (inside && level)
+        return true;
+    if (level && high[0] - low[0] <= 0.125L * tube->reach &&
+        high[1] - low[1] <= 0.125L * tube->reach)
+        return false;
+    Strip half[2];
+    bool along_u = longer_in_u(tube, s);
+    for (int c = 0; c < 3; c++) {
+        Real *a = half[0].p[c], *b = half[1].p[c];
+        const Real *p = s->p[c];
+        for (int k = 0; along_u && k <= nv; k++)
+            halve_line(a + k, b + k, p + k, nu, nv + 1);
+        for (int k = 0; !along_u && k < count; k += nv + 1)
+            halve_line(a + k, b + k, p + k, nv, 1);
+    }
+    return enters(tube, &half[0], depth + 1) || enters(tube, &half[1], depth + 1);
+}
+
+// A frame across the ray, and along it.
+typedef struct {
+    Real e1[3], e2[3], w[3], length;
+} Frame;
+
+static Frame frame_of(const Ray *ray) {
+    Frame f;
+    const Real d[3] = {ray->dir.x, ray->dir.y, ray->dir.z};
+    f.length = sqrtl(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+    for (int i = 0; i < 3; i++)
+        f.w[i] = d[i] / f.length;
+    int least = fabsl(f.w[0]) <= fabsl(f.w[1]) ? 0 : 1;
+    least = fabsl(f.w[2]) < fabsl(f.w[least]) ? 2 : least;
+    int next = (least + 1) % 3, last = (least + 2) % 3;
+    Real n = sqrtl(f.w[next] * f.w[next] + f.w[last] * f.w[last]);
+    f.e1[least] = 0;
+    f.e1[next] = -f.w[last] / n;
+    f.e1[last] = f.w[next] / n;
+    for (int i = 0; i < 3; i++)
+        f.e2[i] = f.w[(i + 1) % 3] * f.e1[(i + 2) % 3] - f.w[(i + 2) % 3] * f.e1[(i + 1) % 3];
+    return f;
+}
+
+static Real along(const Real a[3], const Real b[3]) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+static void lay_along(const PatchDef *def, const Ray *ray, const Frame *f, Strip *s) {
+    for (uint32_t k = 0; k < (def->degree_u + 1) * (def->degree_v + 1); k++) {
+        Real q[3];
+        for (int axis = 0; axis < 3; axis++)
+            q[axis] = (Real)vec_get(def->points[k], axis) - vec_get(ray->org, axis);
+        s->p[0][k] = along(q, f->e1);
+        s->p[1][k] = along(q, f->e2);
+        s->p[2][k] = along(q, f->w) / f->length;
+    }
+}
+
+bool ray_oracle_near(const PatchDef *defs, int count, const Ray *ray, double t0, double t1,
+                     double reach) {
+    enum { STEPS = 16 };
+    if (!(t0 < t1))
+        return true;
+    Frame f = frame_of(ray);
+    Real step = ((Real)t1 - (Real)t0) / STEPS, pad = reach / f.length;
+    for (int n = 0; n < STEPS; n++) {
+        int at = 7 * (n + 1) % STEPS; // not in order: where it fails, it fails far from the ends
+        bool found = false;
+        for (int k = 0; k < count && !found; k++) {
+            Strip s;
+            Tube tube = {(int)defs[k].degree_u, (int)defs[k].degree_v,     NEAR_BUDGET, reach,
+                         t0 + at * step - pad,  t0 + (at + 1) * step + pad};
+            lay_along(&defs[k], ray, &f, &s);
+            found = enters(&tube, &s, 0);
+        }
+        if (!found)
+            return false;
+    }
+    return true;
+}
+
+// ---- Points
 
 static Real curve(const Real *p, int n, Real t, Real *slope) {
     Real row[SIDE];
-    for (int i = 0; i <= n; i++)
+    row[0] = p[0];
+    *slope = 0;
+    for (int i = 1; i <= n; i++)
         row[i] = p[i];
     for (int k = n; k > 0; k--) {
         if (k == 1)
@@ -76,197 +323,11 @@ static Real curve(const Real *p, int n, Real t, Real *slope) {
 // Value and both derivatives of one coordinate.
 static void surface(const PatchDef *def, const Real *p, Real u, Real v, Real out[3]) {
     int nu = (int)def->degree_u, nv = (int)def->degree_v;
-    Real row[SIDE], slope[SIDE], none;
+    Real row[SIDE] = {0}, slope[SIDE] = {0}, none;
     for (int i = 0; i <= nu; i++)
         row[i] = curve(p + i * (nv + 1), nv, v, &slope[i]);
     out[0] = curve(row, nu, u, &out[1]);
     out[2] = curve(slope, nu, u, &none);
-}
-
-typedef struct {
-    Real low, high;
-} Span;
-
-static Span span_of(const Real *p, int count) {
-    Span s = {p[0], p[0]};
-    for (int i = 1; i < count; i++) {
-        s.low = p[i] < s.low ? p[i] : s.low;
-        s.high = p[i] > s.high ? p[i] : s.high;
-    }
-    return s;
-}
-
-static Span slope_span(const PatchDef *def, const Real *p, bool along_u) {
-    int nu = (int)def->degree_u, nv = (int)def->degree_v, row = nv + 1, count = 0;
-    Real d[POINTS];
-    for (int i = 0; i <= nu - along_u; i++) {
-        for (int j = 0; j <= nv - !along_u; j++)
-            d[count++] = p[i * row + j + (along_u ? row : 1)] - p[i * row + j];
-    }
-    return span_of(d, count);
-}
-
-static Span product(Span a, Span b) {
-    const Real p[4] = {a.low * b.low, a.low * b.high, a.high * b.low, a.high * b.high};
-    return span_of(p, 4);
-}
-
-static bool regular(const PatchDef *def, const Cell *c) {
-    Span xu = slope_span(def, c->p[0], true), xv = slope_span(def, c->p[0], false);
-    Span yu = slope_span(def, c->p[1], true), yv = slope_span(def, c->p[1], false);
-    Span a = product(xu, yv), b = product(xv, yu);
-    return a.low > b.high || a.high < b.low;
-}
-
-static void add_root(Task *task, Real u, Real v) {
-    RayOracle *out = task->out;
-    Real x[3], y[3], z[3];
-    surface(task->def, task->whole.p[0], u, v, x);
-    surface(task->def, task->whole.p[1], u, v, y);
-    surface(task->def, task->whole.p[2], u, v, z);
-    double t = (double)(z[0] / task->length);
-    Real near = 1e-8L * task->size / task->length;
-    out->doubtful |= fabsl(t - task->t_min) < near || fabsl(t - task->t_max) < near;
-    if (!(t >= task->t_min && t < task->t_max))
-        return;
-    Real edge = fminl(fminl(u, 1 - u), fminl(v, 1 - v));
-    out->doubtful |= edge < 1e-8L;
-    for (int i = 0; i < out->count; i++) {
-        if (fabsl(out->root[i].u - u) < 1e-12L && fabsl(out->root[i].v - v) < 1e-12L)
-            return; // from the cell beside
-        out->doubtful |= fabsl(out->root[i].t - t) < near;
-    }
-    if (out->count == RAY_ORACLE_ROOTS) {
-        out->doubtful = true;
-        return;
-    }
-    Real n[3] = {y[1] * z[2] - z[1] * y[2], z[1] * x[2] - x[1] * z[2], x[1] * y[2] - y[1] * x[2]};
-    Real sine = fabsl(n[2]) / sqrtl(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
-    out->root[out->count++] = (RayOracleRoot){t, (double)u, (double)v, (double)sine};
-}
-
-// Newton about the cell, which has a regular Jacobian. True: decided.
-static bool polish(Task *task, const Cell *c) {
-    Real u = (c->u0 + c->u1) / 2, v = (c->v0 + c->v1) / 2;
-    Real wu = c->u1 - c->u0, wv = c->v1 - c->v0, x[3], y[3];
-    for (int step = 0; step < 50; step++) {
-        surface(task->def, task->whole.p[0], u, v, x);
-        surface(task->def, task->whole.p[1], u, v, y);
-        Real det = x[1] * y[2] - x[2] * y[1];
-        Real du = (y[2] * x[0] - x[2] * y[0]) / det, dv = (x[1] * y[0] - y[1] * x[0]) / det;
-        u -= du;
-        v -= dv;
-        if (!(u >= c->u0 - wu && u <= c->u1 + wu && v >= c->v0 - wv && v <= c->v1 + wv))
-            return false;
-        if (fabsl(du) + fabsl(dv) < 1e-18L)
-            break;
-    }
-    surface(task->def, task->whole.p[0], u, v, x);
-    surface(task->def, task->whole.p[1], u, v, y);
-    if (fabsl(x[0]) > task->noise || fabsl(y[0]) > task->noise)
-        return false;
-    const Real tiny = 1e-13L; // on the border both cells may have it, add_root sees that
-    if (u < c->u0 - tiny || u > c->u1 + tiny || v < c->v0 - tiny || v > c->v1 + tiny)
-        return false; // another cell's; this one goes on until its points say so
-    add_root(task, u, v);
-    return true;
-}
-
-// As the ray sees it; so a collapsed edge is not cut into slices that all contain it.
-static bool longer_in_u(const PatchDef *def, const Cell *c) {
-    Real length[2] = {0, 0};
-    for (int axis = 0; axis < 2; axis++) {
-        for (int along_u = 0; along_u < 2; along_u++) {
-            Span s = slope_span(def, c->p[axis], along_u);
-            Real n = along_u ? def->degree_u : def->degree_v;
-            length[along_u] = fmaxl(length[along_u], n * fmaxl(-s.low, s.high));
-        }
-    }
-    return length[1] >= length[0];
-}
-
-// Do all points lie on one side of the line through the origin along (dx, dy)?
-static bool aside(const Task *task, const Cell *c, int count, Real dx, Real dy) {
-    Real length = sqrtl(dx * dx + dy * dy), off[POINTS];
-    if (!(length > 0))
-        return false;
-    for (int i = 0; i < count; i++)
-        off[i] = (c->p[0][i] * dy - c->p[1][i] * dx) / length;
-    Span s = span_of(off, count);
-    return s.low > task->noise || s.high < -task->noise;
-}
-
-// Tried: both axes, and along the diagonals of the cell, which suits one seen edge-on.
-static bool misses(const Task *task, const Cell *c) {
-    int nu = (int)task->def->degree_u, nv = (int)task->def->degree_v, count = (nu + 1) * (nv + 1);
-    const Real *x = c->p[0], *y = c->p[1];
-    int a = count - 1, b = nv, d = nu * (nv + 1);
-    return aside(task, c, count, 1, 0) || aside(task, c, count, 0, 1) ||
-           aside(task, c, count, x[a] - x[0], y[a] - y[0]) ||
-           aside(task, c, count, x[b] - x[d], y[b] - y[d]);
-}
-
-static void search(Task *task, const Cell *c, int depth) {
-    int count = (int)((task->def->degree_u + 1) * (task->def->degree_v + 1));
-    if (misses(task, c))
-        return;
-    Span z = span_of(c->p[2], count);
-    Real near = 1e-8L * task->size;
-    if (z.high < task->t_min * task->length - near || z.low > task->t_max * task->length + near)
-        return;
-    if (regular(task->def, c) && polish(task, c))
-        return;
-    if (depth == DEPTH || ++task->work > BUDGET) {
-        task->out->doubtful = true;
-        return;
-    }
-    Cell half[2];
-    halve(task->def, c, longer_in_u(task->def, c), &half[0], &half[1]);
-    search(task, &half[0], depth + 1);
-    search(task, &half[1], depth + 1);
-}
-
-void ray_oracle(RayOracle *oracle, const PatchDef *def, const Ray *ray, double t_min,
-                double t_max) {
-    Task task;
-    task.def = def;
-    task.t_min = t_min;
-    task.t_max = t_max;
-    task.out = oracle;
-    task.work = 0;
-    const Real d[3] = {ray->dir.x, ray->dir.y, ray->dir.z};
-    task.length = sqrtl(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
-    // Axes: w along the ray, e1 across it and the axis it is farthest from, e2 across both.
-    Real w[3], e1[3], e2[3];
-    for (int i = 0; i < 3; i++)
-        w[i] = d[i] / task.length;
-    int least = fabsl(w[0]) <= fabsl(w[1]) ? 0 : 1;
-    least = fabsl(w[2]) < fabsl(w[least]) ? 2 : least;
-    int next = (least + 1) % 3, last = (least + 2) % 3;
-    Real n = sqrtl(w[next] * w[next] + w[last] * w[last]);
-    e1[least] = 0;
-    e1[next] = -w[last] / n;
-    e1[last] = w[next] / n;
-    for (int i = 0; i < 3; i++)
-        e2[i] = w[(i + 1) % 3] * e1[(i + 2) % 3] - w[(i + 2) % 3] * e1[(i + 1) % 3];
-    Cell *c = &task.whole;
-    c->u0 = c->v0 = 0;
-    c->u1 = c->v1 = 1;
-    Real far = 0;
-    task.size = 0;
-    for (uint32_t k = 0; k < (def->degree_u + 1) * (def->degree_v + 1); k++) {
-        Vec3 q = def->points[k];
-        const Real p[3] = {(Real)q.x - ray->org.x, (Real)q.y - ray->org.y, (Real)q.z - ray->org.z};
-        for (int axis = 0; axis < 3; axis++) {
-            const Real *e = axis == 0 ? e1 : axis == 1 ? e2 : w;
-            c->p[axis][k] = p[0] * e[0] + p[1] * e[1] + p[2] * e[2];
-            far = fmaxl(far, fabsl(p[axis]));
-            task.size =
-                fmaxl(task.size, fabsl((Real)vec_get(q, axis) - vec_get(def->points[0], axis)));
-        }
-    }
-    task.noise = far * 4e-18L;
-    search(&task, c, 0);
 }
 
 void ray_oracle_jet(const PatchDef *def, double u, double v, Vec3 out[3]) {

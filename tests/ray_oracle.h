@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// All crossings of a ray with one patch, in long double by plain bisection: slow, and nothing in
-// common with the methods under test. Its tolerances scale with the patch as the ray sees it, so it
-// judges the extremes too (tiny, far away, thin, grazing).
+// All crossings of a ray with one patch, by exact subdivision: slow, nothing in common with the
+// methods under test, and certified. Each step bounds its own rounding; what double with that bound
+// can't tell is done again in __float128 (113 bits) when the caller asks for it. So the answer does
+// not depend on any tolerance, and judges the extremes too (tiny, far away, thin, grazing).
 #ifndef TESTS_RAY_ORACLE_H
 #define TESTS_RAY_ORACLE_H
 
@@ -9,19 +10,47 @@
 
 enum { RAY_ORACLE_ROOTS = 64 };
 
+typedef enum {
+    ROOT_CERTAIN, // a single crossing, proved, and inside the patch or on its edge
+    ROOT_BORDER,  // proved, but it may lie just inside or just outside
+    ROOT_OPEN, // there may be any number of crossings here: tangent, singular, or infinitely many
+} RayOracleKind;
+
 typedef struct {
+    RayOracleKind kind;
     double t, u, v;
-    double sine; // of the angle between ray and surface, 0: grazing
+    double dt, du, dv; // uncertainty of each
+    double sine;       // of the angle between ray and surface, 0: grazing or not known
 } RayOracleRoot;
 
 typedef struct {
     int count;
-    bool doubtful; // tangent or singular, on the patch's edge, or at the end of the range
+    int open;      // how many are not ROOT_CERTAIN
+    bool doubtful; // see ray_oracle()
     RayOracleRoot root[RAY_ORACLE_ROOTS];
 } RayOracle;
 
-// Adds the roots with t_min <= t < t_max.
+typedef enum {
+    ORACLE_QUICK, // double; rough about what rounding hides
+    ORACLE_EXACT, // __float128
+} RayOraclePrecision;
+
+// Adds the crossings of the whole line, behind the origin too, with any t. Direction not zero,
+// everything finite.
+void ray_oracle_find(RayOracle *oracle, const PatchDef *def, const Ray *ray,
+                     RayOraclePrecision precision);
+
+// The crossings with t_min <= t < t_max, added. Doubtful: what another method can't be asked to see
+// in the same way, since it is tangent or singular, within 1e-8 of the patch's edge or of the ends
+// of the range, or two crossings as near to each other.
 void ray_oracle(RayOracle *oracle, const PatchDef *def, const Ray *ray, double t_min, double t_max);
+
+// Do the patches, taken together, come within `reach` of the ray at every depth between t0 and t1,
+// give or take `reach` in depth as well?
+// Answered for 16 steps of depth. False as well when that takes too long.
+bool ray_oracle_near(const PatchDef *defs, int count, const Ray *ray, double t0, double t1,
+                     double reach);
+
 // |org + t dir - S(u,v)|, rounded once.
 double ray_oracle_residual(const PatchDef *def, const Ray *ray, double t, double u, double v);
 // S and its derivatives.

@@ -182,7 +182,7 @@ static void collect(void *context, const PatchHit *hit) {
 // Nearest, any and all of one ray against the oracle.
 static void judge(Tally *tally, const Ray *ray, double t_min, double t_max, uint32_t mask) {
     RayOracle truth = {.count = 0};
-    double nearest = INFINITY, sine = 1.0;
+    double nearest = INFINITY, sine = 1.0, uncertain = 0.0;
     for (int i = 0; i < scene.count; i++) {
         if (!(mask & 1u << (i % 8)) || !meets_box(&scene.box[i], ray))
             continue;
@@ -193,6 +193,7 @@ static void judge(Tally *tally, const Ray *ray, double t_min, double t_max, uint
         truth.doubtful |= one.doubtful;
         for (int k = 0; k < one.count; k++) {
             sine = fmin(sine, one.root[k].sine);
+            uncertain = fmax(uncertain, one.root[k].dt);
             nearest = fmin(nearest, one.root[k].t);
         }
     }
@@ -219,7 +220,7 @@ static void judge(Tally *tally, const Ray *ray, double t_min, double t_max, uint
     bool right = found == (truth.count > 0) && list.count == truth.count;
     if (right && found) {
         double length = vec_length(ray->dir),
-               depth = 4.0 * hit.bound / fmax(sine, 1e-6) + tally->slack;
+               depth = 4.0 * hit.bound / fmax(sine, 1e-6) + tally->slack + uncertain * length;
         right = fabs(hit.t - nearest) * length <= depth && fabs(first - hit.t) * length <= depth;
     }
     if (!right && tally->wrong++ < 5)

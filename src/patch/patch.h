@@ -102,6 +102,11 @@ bool patchset_intersect(const PatchSet *set, const Ray *ray, double t_min, doubl
 // the ray's origin is that surface, and does not count.
 bool patchset_intersect_leaving(const PatchSet *set, const Ray *ray, double t_max, uint32_t mask,
                                 PatchStats *stats, PatchHit *hit);
+// From which t on a ray that starts at a hit (org: the hit's point as computed, dir any) is clear
+// of the surface that it leaves: to be its t_min. Derived from the hit's bound: what lies before is
+// within ten bounds of the ray all the way from its start (clearance.c), so a sheet farther away
+// than that is never lost. def: the patch that was hit.
+double patch_clearance(const PatchDef *def, const PatchHit *hit, const Ray *ray);
 // Is there any?
 bool patchset_occluded(const PatchSet *set, const Ray *ray, double t_min, double t_max,
                        uint32_t mask, PatchStats *stats);

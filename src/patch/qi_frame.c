@@ -163,8 +163,8 @@ bool qi_frame_init(QiFrame *f, QiFrameKind kind, const Bezier *patch, const QiQu
         kind == FRAME_ACROSS ? axes_across(dir, &f->length) : axes_skew(dir, far, &f->length);
     turn_points(f, &axes, kind == FRAME_SKEW_RATIONAL ? 2.0 : 1.0, out);
     // An error of z moves the ray's point by |dir| / length as much.
-    f->rounding = sqrt(f->slack_x * f->slack_x + f->slack_y * f->slack_y) +
-                  vec_length(dir) / f->length * f->slack_z;
+    f->stretch = vec_length(dir) / f->length;
+    f->rounding = sqrt(f->slack_x * f->slack_x + f->slack_y * f->slack_y) + f->stretch * f->slack_z;
     double least = 0.5 * floor_of(out->du, out->dv, f->rounding);
     f->tolerance = larger(ldexp(query->tolerance, f->exponent), least);
     f->z_low = depth_of(f, query->t_min, -8.0) - f->slack_z;

@@ -410,6 +410,63 @@ static bool finish_single(Search *q, const Piece *p) {
     return qi_root_sharpen(&q->target, p->left, error_u, error_v) || slope <= CERTAIN_SLOPE;
 }
 
+// The depths of the control points of a rational piece: its own depths are means of them.
+static void divide_weights(const QiTarget *target, const double *wu, const double *wv, double *z) {
+    double w[POINTS];
+    restrict_axis(target->whole.w, wu, wv, target->du, target->dv, w);
+    for (int k = 0; k < (target->du + 1) * (target->dv + 1); k++)
+        z[k] /= w[k];
+}
+
+// The point of a piece with the smallest depth in range, within the tolerance, by branch and bound:
+// all of the piece is on the ray, so only depth counts. False: none was met.
+static bool first_depth(Search *q, BezierRect rect, double at[2]) {
+    enum { FIRST_STEPS = 400 };
+    const QiTarget *target = &q->target;
+    const QiFrame *frame = &target->frame;
+    int du = target->du, dv = target->dv, row = dv + 1, count = 0;
+    double best = qi_list_z_high(&target->list, frame), enough = frame->tolerance / frame->stretch;
+    bool found = false;
+    BezierRect stack[STACK];
+    stack[count++] = rect;
+    for (int n = 0; count > 0 && n < FIRST_STEPS; n++) {
+        BezierRect r = stack[--count];
+        double wu[LINE * LINE], wv[LINE * LINE], z[POINTS], second[2], slope[2];
+        q->steps++;
+        restriction(wu, du + 1, 1, du, r.u0, r.u1);
+        restriction(wv, 1, dv + 1, dv, r.v0, r.v1);
+        restrict_axis(target->whole.z, wu, wv, du, dv, z);
+        if (target->rational)
+            divide_weights(target, wu, wv, z);
+        Span depth = span_of(z, (du + 1) * row);
+        if (depth.high < frame->z_low || larger(depth.low, frame->z_low) >= best - enough)
+            continue;
+        for (int k = 0; k < 4; k++) {
+            double here = z[(k & 2 ? du * row : 0) + (k & 1 ? dv : 0)];
+            if (here < best && qi_root_in_range(target, here - frame->slack_z)) {
+                found = true;
+                best = here;
+                at[0] = k & 2 ? r.u1 : r.u0;
+                at[1] = k & 1 ? r.v1 : r.v0;
+            }
+        }
+        // A piece that ends where the range begins has nothing better below.
+        if (depth.high - larger(depth.low, frame->z_low) <= enough || count + 2 > STACK)
+            continue;
+        differences(z, du, dv, second, slope);
+        BezierRect half[2] = {r, r};
+        bool along_u = slope[0] >= slope[1];
+        if (along_u)
+            half[0].u1 = half[1].u0 = 0.5 * (r.u0 + r.u1);
+        else
+            half[0].v1 = half[1].v0 = 0.5 * (r.v0 + r.v1);
+        bool low_first = (along_u ? trend_u(z, du, dv) : trend_v(z, du, dv)) >= 0.0;
+        stack[count++] = half[low_first ? 1 : 0];
+        stack[count++] = half[low_first ? 0 : 1];
+    }
+    return found;
+}
+
 // Pieces of a singular J in which the ray is as good as in the surface.
 static inline bool finish_singular(Search *q, int count, const Piece *p, bool least) {
     const QiFrame *frame = &q->target.frame;
@@ -420,7 +477,19 @@ static inline bool finish_singular(Search *q, int count, const Piece *p, bool le
         return true;
     bool near = q->target.rational ? within_rational(&p->net, count, frame->tolerance)
                                    : within(&p->net, count, frame->tolerance);
-    return (least || near) && (qi_root_settle(&q->target, p->left) || least);
+    if (!least && !near)
+        return false;
+    Span depth = span_of(p->net.z, count);
+    if (least || (depth.high - depth.low) * frame->stretch <= frame->tolerance) {
+        // One place, as far as the tolerance can tell: it is in range, or it is not. (A range may
+        // begin on a pole.)
+        qi_root_settle(&q->target, p->left);
+        return true;
+    }
+    double at[2];
+    if (!first_depth(q, p->rect, at) || !qi_root_settle_at(&q->target, p->rect, at[0], at[1]))
+        qi_root_settle(&q->target, p->rect);
+    return true;
 }
 
 static inline Step step_of(Search *q, BezierRect rect, int du, int dv, Rest *rest) {

@@ -139,7 +139,8 @@ bool qi_root_sharpen(QiTarget *q, BezierRect rect, double error_u, double error_
 // too, or a point of a whole curve of them. Keeps what is nearer to the ray and in range.
 static Point sharpen_any(QiTarget *q, BezierRect rect, Point p, double *u, double *v) {
     double wx = q->weight_x, wy = q->weight_y;
-    for (int n = 0; n < 8; n++) {
+    // Where all of a curve lies on the ray, steps would only follow the rounding along it.
+    for (int n = 0; n < 8 && !on_ray(q, p, QI_ROOT_SLACKS); n++) {
         double x = wx * p.x, xu = wx * p.xu, xv = wx * p.xv, y = wy * p.y, yu = wy * p.yu,
                yv = wy * p.yv;
         double a = xu * xu + yu * yu, b = xu * xv + yu * yv, c = xv * xv + yv * yv;
@@ -201,19 +202,43 @@ bool qi_root_settle(QiTarget *q, BezierRect r) {
     return true;
 }
 
-// Where a form that grows from one point of parameters to another is 0, by bisection; it is <= 0 at
-// `low` and >= 0 at `high`, up to rounding.
-static Point zero_between(const QiTarget *q, QiForm f, const double low[2], const double high[2],
-                          double at[2]) {
-    double a = 0.0, b = 1.0;
-    Point p;
-    do {
-        double mid = 0.5 * (a + b);
+bool qi_root_settle_at(QiTarget *q, BezierRect r, double u, double v) {
+    Point p = eval(q, u, v);
+    if (!in_range(q, p.z))
+        return false;
+    p = sharpen_any(q, r, p, &u, &v);
+    add_found(q, p, u, v, r, 0);
+    return true;
+}
+
+bool qi_root_in_range(const QiTarget *q, double z) { return in_range(q, z); }
+
+// Where a form that grows from one point of parameters to another is 0 within `slack`; it is <= 0
+// at `low` and >= 0 at `high`, up to rounding. By false position with the Illinois rule (an end
+// that stays twice counts half), and a bisection every fourth step for what bends too much for
+// that.
+static Point zero_between(const QiTarget *q, QiForm f, double slack, const double low[2],
+                          const double high[2], double at[2]) {
+    Point p = eval(q, low[0], low[1]), top = eval(q, high[0], high[1]);
+    double a = 0.0, b = 1.0, fa = f.bx * p.x + f.by * p.y, fb = f.bx * top.x + f.by * top.y;
+    int side = 0;
+    for (int n = 1; b - a > DBL_EPSILON; n++) {
+        double mid =
+            n % 4 == 0 || !(fa < 0.0 && fb > 0.0) ? 0.5 * (a + b) : a + (b - a) * (fa / (fa - fb));
         at[0] = low[0] + mid * (high[0] - low[0]);
         at[1] = low[1] + mid * (high[1] - low[1]);
         p = eval(q, at[0], at[1]);
-        *(f.bx * p.x + f.by * p.y < 0.0 ? &a : &b) = mid;
-    } while (b - a > DBL_EPSILON);
+        double here = f.bx * p.x + f.by * p.y;
+        if (fabs(here) <= slack)
+            break;
+        if (here < 0.0) {
+            fb = side < 0 ? 0.5 * fb : fb;
+            a = mid, fa = here, side = -1;
+        } else {
+            fa = side > 0 ? 0.5 * fa : fa;
+            b = mid, fb = here, side = 1;
+        }
+    }
     return p;
 }
 
@@ -230,7 +255,7 @@ bool qi_root_settle_curve(QiTarget *q, BezierRect r, QiForm f, double slack) {
         Point side = eval(q, sides[k][0], sides[k][1]);
         bool beyond = f.bx * side.x + f.by * side.y >= 0.0;
         Point end =
-            zero_between(q, f, beyond ? least : sides[k], beyond ? sides[k] : most, ends[k]);
+            zero_between(q, f, slack, beyond ? least : sides[k], beyond ? sides[k] : most, ends[k]);
         early[k] = qi_frame_t(&q->frame, end.z) < q->list.t_min;
         if (in_range(q, end.z) && (!found || end.z < p.z)) {
             found = true;
@@ -243,7 +268,7 @@ bool qi_root_settle_curve(QiTarget *q, BezierRect r, QiForm f, double slack) {
             double mid = 0.5 * (a + b), from = early[0] ? mid : 1.0 - mid;
             double v = ends[0][1] + from * (ends[1][1] - ends[0][1]), spot[2];
             const double low[2] = {lu, v}, high[2] = {hu, v};
-            Point next = zero_between(q, f, low, high, spot);
+            Point next = zero_between(q, f, slack, low, high, spot);
             bool is_early = qi_frame_t(&q->frame, next.z) < q->list.t_min;
             *(is_early ? &a : &b) = mid;
             if (!is_early && in_range(q, next.z)) {

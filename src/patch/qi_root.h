@@ -48,6 +48,11 @@ bool qi_root_sharpen(QiTarget *target, BezierRect rect, double error_u, double e
 // least squares bring it. False: no corner's depth is in range, nor the middle's.
 bool qi_root_settle(QiTarget *target, BezierRect rect);
 
+// The same from a given point of the piece, which is where its depths begin. False: not in range.
+bool qi_root_settle_at(QiTarget *target, BezierRect rect, double u, double v);
+// May a point of that depth be a hit?
+bool qi_root_in_range(const QiTarget *target, double z);
+
 // A piece in which the form grows strictly in both parameters (in the directions of the signs of au
 // and av) and any form across it is rounding: the form vanishes on a curve from border to border,
 // or nowhere. Adds the first end of that curve whose depth is in range, or the place where it

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+// From where on a ray that starts at a hit is clear of the surface that it leaves.
+//
+// The start lies within b of the surface: b is the hit's bound and the start's own rounding. Let s
+// be the sine of the angle between the ray and the tangent plane, k the normal curvature along the
+// ray. Up to second order the surface's height over the start is e + k t^2 / 2, |e| <= b, and the
+// ray's is s t; they meet at t about e / s by mistake, and where the surface bends towards the ray
+// at t about 2 s / k, truly.
+//   s^2 >= 4 k b: t = 2 b / s lies beyond the first for every e, and before half of the second.
+//   else          ray and surface touch as far as b can tell: both crossings lie before
+//                 t = (s + sqrt(s^2 + 2 k b)) / k <= 4.5 sqrt(b / k), where the surface is still
+//                 within 10 b of the ray.
+// So what lies before t is within ten bounds of the ray all the way from its start, and nothing
+// that is farther from the surface than that is lost.
+#include "patch/patch.h"
+
+#include "patch/bezier.h"
+
+#include <float.h>
+
+static double largest(Vec3 a) { return fmax(fabs(a.x), fmax(fabs(a.y), fabs(a.z))); }
+
+// Of the surface along a unit direction d in its tangent plane; 0 where the tangents span no plane.
+static double normal_curvature(const BezierJet *s, Vec3 n, Vec3 d) {
+    double e = vec_dot(s->su, s->su), f = vec_dot(s->su, s->sv), g = vec_dot(s->sv, s->sv);
+    double det = e * g - f * f, du = vec_dot(d, s->su), dv = vec_dot(d, s->sv);
+    if (!(det > 1e-12 * e * g))
+        return 0.0;
+    double a = (g * du - f * dv) / det, b = (e * dv - f * du) / det;
+    Vec3 bend = vec_scale(s->suu, a * a);
+    bend = vec_madd(bend, 2.0 * a * b, s->suv);
+    bend = vec_madd(bend, b * b, s->svv);
+    return fabs(vec_dot(bend, n));
+}
+
+double patch_clearance(const PatchDef *def, const PatchHit *hit, const Ray *ray) {
+    Bezier patch;
+    bezier_init(&patch, (int)def->degree_u, (int)def->degree_v, def->points);
+    Box box = bezier_bounds(&patch);
+    double extent = largest(vec_sub(box.high, box.low)), most = largest(ray->dir);
+    // The start was computed from t dir and an origin as large as itself, two roundings each.
+    double bound = hit->bound + 8.0 * DBL_EPSILON * largest(ray->org);
+    if (!(most > 0.0) || !(extent > 0.0))
+        return 0.0;
+    // To unit size: no product may leave the range of numbers.
+    int exponent;
+    frexp(extent, &exponent);
+    double half = ldexp(1.0, -exponent / 2), rest = ldexp(1.0, -exponent - -exponent / 2);
+    for (int k = 0; k < bezier_count(&patch); k++)
+        patch.p[k] = vec_scale(vec_scale(vec_sub(patch.p[k], box.low), half), rest);
+    double b = bound * half * rest;
+
+    Vec3 d = vec_scale(ray->dir, 1.0 / most);
+    double length = vec_length(d);
+    d = vec_scale(d, 1.0 / length);
+    double sine = vec_dot(d, hit->normal);
+    Vec3 flat = vec_madd(d, -sine, hit->normal);
+    sine = fabs(sine);
+    double curvature = 1.0; // at least: a patch is no longer than it is
+    if (vec_length(flat) > 0.0) {
+        BezierJet jet;
+        bezier_eval2(&patch, hit->u, hit->v, &jet);
+        curvature = fmax(curvature, normal_curvature(&jet, hit->normal, vec_normalize(flat)));
+    }
+    double t = sine * sine >= 4.0 * curvature * b ? 2.0 * b / sine : 4.5 * sqrt(b / curvature);
+    return t / (half * rest) / (length * most);
+}

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+// The cases of `make stress`: scenes of patches, and rays aimed at what breaks intersectors. All of
+// it is a function of (seed, case, scene, ray), so that any ray can be made again by its numbers.
+#ifndef TESTS_STRESS_CASES_H
+#define TESTS_STRESS_CASES_H
+
+#include "base/arena.h"
+#include "base/rng.h"
+#include "patch/bezier.h"
+#include "patch/patch.h"
+
+// A side of a patch: 0 u = 0, 1 u = 1, 2 v = 0, 3 v = 1.
+typedef struct {
+    int patch, side;
+} StressSide;
+
+typedef struct {
+    Arena *arena;
+    int count, capacity;
+    PatchDef *defs; // ids count from 0
+    Box box;
+    Vec3 middle;
+    double size;   // diagonal of box
+    double detail; // what the case wants its rays to know
+    // Of scenes of up to 64 patches: sides that two patches share, and sides that are points.
+    StressSide shared[128], poles[32];
+    int shared_count, pole_count;
+} StressScene;
+
+typedef enum {
+    EXPECT_TRUTH, // what the oracle finds
+    EXPECT_HIT,   // by construction a hit at t_known or before
+    EXPECT_NONE,  // nothing: not a ray
+} StressExpect;
+
+typedef struct {
+    Ray ray;
+    double t_min, t_max;
+    StressExpect expect;
+    double t_known;
+    // The ray only finds the place from which another leaves, along `onward`: that one is judged.
+    bool leaves;
+    Vec3 onward;
+} StressRay;
+
+typedef struct StressCase {
+    const char *name, *what;
+    double share;  // of all rays, relative to the others
+    int per_scene; // rays
+    void (*make)(StressScene *scene, Rng *rng, double parameter);
+    void (*aim)(const StressScene *scene, Rng *rng, double parameter, StressRay *out);
+    double parameter;
+    double tolerance; // of the methods; 0: the default
+    bool watertight;  // counts separately: only rays at closed edges, judged by what stops them
+} StressCase;
+
+extern const StressCase stress_cases[];
+extern const int stress_case_count;
+
+// The patch as the evaluators want it.
+void stress_patch(const PatchDef *def, Bezier *out);
+// *scene is made anew (its arena too); destroy it with stress_scene_destroy.
+void stress_scene_make(const StressCase *which, uint64_t seed, uint64_t number, StressScene *scene);
+void stress_scene_destroy(StressScene *scene);
+void stress_ray_make(const StressCase *which, const StressScene *scene, uint64_t seed,
+                     uint64_t number, uint64_t ray, StressRay *out);
+
+// ---- Scenes (stress_scenes.c): each adds patches to an empty scene.
+void scene_teapot(StressScene *s, Rng *rng, double scale);
+void scene_pot(StressScene *s, Rng *rng, double unused);   // the teapot as it is
+void scene_sheet(StressScene *s, Rng *rng, double unused); // one bicubic patch
+void scene_teapot_moved(StressScene *s, Rng *rng, double offset);
+void scene_random(StressScene *s, Rng *rng, double wild); // one bicubic patch
+void scene_degrees(StressScene *s, Rng *rng, double wild);
+void scene_mesh(StressScene *s, Rng *rng, double wild); // patches that share sides
+void scene_point(StressScene *s, Rng *rng, double unused);
+void scene_segment(StressScene *s, Rng *rng, double unused);
+void scene_flat(StressScene *s, Rng *rng, double unused);
+void scene_saddle(StressScene *s, Rng *rng, double unused);
+void scene_thin_sheets(StressScene *s, Rng *rng, double gap);
+void scene_fold9(StressScene *s, Rng *rng, double unused);
+void scene_line18(StressScene *s, Rng *rng, double unused);
+void scene_double_rows(StressScene *s, Rng *rng, double unused);
+void scene_aspect(StressScene *s, Rng *rng, double ratio);
+void scene_cusp(StressScene *s, Rng *rng, double unused);
+void scene_self_crossing(StressScene *s, Rng *rng, double unused);
+void scene_twisted(StressScene *s, Rng *rng, double unused);
+void scene_collapsed(StressScene *s, Rng *rng, double unused);
+void scene_t_junction(StressScene *s, Rng *rng, double unused);
+void scene_scaled(StressScene *s, Rng *rng, double scale);
+void scene_mixed_sizes(StressScene *s, Rng *rng, double unused);
+void scene_many(StressScene *s, Rng *rng, double teapots);
+
+Vec3 stress_direction(Rng *rng);
+// A point of a patch, with its tangents.
+Vec3 stress_point(const StressScene *s, int patch, double u, double v, Vec3 *su, Vec3 *sv);
+
+#endif

@@ -1,0 +1,314 @@
+// SPDX-License-Identifier: MIT
+#include "stress_judge.h"
+
+#include <float.h>
+#include <stdio.h>
+
+static const char *const names[STRESS_VERDICTS] = {"fine", "missed", "false",  "over", "order",
+                                                   "lost", "twice",  "differ", "NaN"};
+
+bool stress_is_triangles(PatchMethod method) {
+    return method == METHOD_FACETS || method == METHOD_TESSELLATION;
+}
+
+const char *stress_verdict_name(StressVerdict verdict) { return names[verdict]; }
+
+// ---- Truth
+
+void stress_truth_init(StressTruth *truth, const StressScene *scene, const StressRay *ray) {
+    truth->scene = scene;
+    truth->ray = ray;
+    truth->made = 0;
+    truth->open = false;
+}
+
+static double length_of(Vec3 a) { return hypot(a.x, hypot(a.y, a.z)); }
+
+// In long double, which has the range for all scales, and with room for its rounding.
+static bool meets_hull(const PatchDef *def, const Ray *ray) {
+    long double near = -INFINITY, far = INFINITY;
+    for (int axis = 0; axis < 3; axis++) {
+        long double o = vec_get(ray->org, axis), d = vec_get(ray->dir, axis);
+        long double low = vec_get(def->points[0], axis), high = low;
+        for (uint32_t k = 1; k < (def->degree_u + 1) * (def->degree_v + 1); k++) {
+            long double x = vec_get(def->points[k], axis);
+            low = x < low ? x : low;
+            high = x > high ? x : high;
+        }
+        if (d == 0) {
+            if (o < low || o > high)
+                return false;
+            continue;
+        }
+        long double a = (low - o) / d, b = (high - o) / d;
+        long double first = a < b ? a : b, last = a < b ? b : a;
+        first -= 0x1p-60L * fabsl(first), last += 0x1p-60L * fabsl(last);
+        near = first > near ? first : near;
+        far = last < far ? last : far;
+    }
+    return near <= far;
+}
+
+static void find(StressTruth *truth, RayOraclePrecision precision) {
+    int level = precision == ORACLE_QUICK ? 1 : 2;
+    if (truth->made >= level)
+        return;
+    truth->made = level;
+    truth->oracle.count = truth->oracle.open = 0;
+    for (int n = 0; n < truth->scene->count; n++) {
+        const PatchDef *def = &truth->scene->defs[n];
+        if (!meets_hull(def, &truth->ray->ray))
+            continue;
+        int first = truth->oracle.count;
+        ray_oracle_find(&truth->oracle, def, &truth->ray->ray, precision);
+        for (int k = first; k < truth->oracle.count; k++)
+            truth->patch[k] = n;
+    }
+}
+
+void stress_truth_print(StressTruth *truth) {
+    static const char *const kinds[] = {"certain", "border", "open"};
+    find(truth, ORACLE_EXACT);
+    for (int k = 0; k < truth->oracle.count; k++) {
+        const RayOracleRoot *c = &truth->oracle.root[k];
+        printf("  truth: patch %d t %.17g +- %.2g u %.17g v %.17g sine %.3g %s\n", truth->patch[k],
+               c->t, c->dt, c->u, c->v, c->sine, kinds[c->kind]);
+    }
+}
+
+// ---- Hits
+
+static double diameter_of(const PatchDef *def) {
+    Box box = box_empty();
+    for (uint32_t k = 0; k < (def->degree_u + 1) * (def->degree_v + 1); k++)
+        box = box_extend(box, def->points[k]);
+    return length_of(vec_sub(box.high, box.low));
+}
+
+// What rounding may cost, in scene units: 128 units of the last place a degree, at the farthest
+// point that ray and patch involve.
+static double rounding_of(const PatchDef *def, const Ray *ray) {
+    double reach = 0.0;
+    for (uint32_t k = 0; k < (def->degree_u + 1) * (def->degree_v + 1); k++)
+        reach = fmax(reach, length_of(vec_sub(def->points[k], ray->org)));
+    return 128.0 * (def->degree_u + def->degree_v) * 0x1p-53 * reach + 64.0 * 0x1p-1074;
+}
+
+static double tolerance_of(const StressCase *which, PatchMethod method) {
+    return stress_is_triangles(method) ? 1e-2 : which->tolerance;
+}
+
+static double allowed_of(const StressCase *which, PatchMethod method, const PatchDef *def,
+                         const Ray *ray) {
+    return tolerance_of(which, method) * diameter_of(def) + rounding_of(def, ray);
+}
+
+static StressVerdict judge_hit(const StressCase *which, PatchMethod method,
+                               const StressTruth *truth, const PatchHit *hit) {
+    double sum = hit->t + hit->u + hit->v + hit->normal.x + hit->normal.y + hit->normal.z;
+    if (!isfinite(sum + hit->bound) || !(fabs(vec_length(hit->normal) - 1.0) < 1e-9))
+        return STRESS_NAN;
+    const StressRay *r = truth->ray;
+    if (hit->id >= (uint32_t)truth->scene->count || !(hit->t >= r->t_min && hit->t < r->t_max) ||
+        !(hit->u >= 0.0 && hit->u <= 1.0 && hit->v >= 0.0 && hit->v <= 1.0))
+        return STRESS_FALSE;
+    const PatchDef *def = &truth->scene->defs[hit->id];
+    double off = ray_oracle_residual(def, &r->ray, hit->t, hit->u, hit->v);
+    double allowed = allowed_of(which, method, def, &r->ray);
+    if (!(off <= allowed))
+        return STRESS_FALSE;
+    if (!stress_is_triangles(method) && !(off <= hit->bound && hit->bound <= allowed))
+        return STRESS_OVER;
+    return STRESS_FINE;
+}
+
+// How far a hit with that bound may lie from the crossing, in t.
+static double slack_of(const RayOracleRoot *c, double bound, const Ray *ray) {
+    return c->dt + 4.0 * bound / (fmax(c->sine, 1e-3) * length_of(ray->dir)) +
+           8.0 * DBL_EPSILON * fabs(c->t) + 4.0 * 0x1p-1074;
+}
+
+static bool near_between(const StressTruth *truth, double a, double b, double bound) {
+    return ray_oracle_near(truth->scene->defs, truth->scene->count, &truth->ray->ray, fmin(a, b),
+                           fmax(a, b), 4.0 * bound);
+}
+
+// Does the range surely hold it?
+static bool surely_in_range(const StressTruth *truth, const RayOracleRoot *c, double bound) {
+    double slack = slack_of(c, bound, &truth->ray->ray);
+    return c->t - slack >= truth->ray->t_min && c->t + slack < truth->ray->t_max;
+}
+
+typedef struct {
+    const StressCase *which;
+    PatchMethod method;
+    StressTruth *truth;
+    const StressAnswer *answer;
+} Trial;
+
+static double bound_at(const Trial *trial, const PatchHit *hit, int patch) {
+    const PatchDef *def = &trial->truth->scene->defs[patch];
+    double allowed = allowed_of(trial->which, trial->method, def, &trial->truth->ray->ray);
+    return hit && !stress_is_triangles(trial->method) ? hit->bound : allowed;
+}
+
+// Is a hit too far behind the crossing to be it?
+static bool behind(const Trial *trial, const PatchHit *hit, int k) {
+    const RayOracleRoot *c = &trial->truth->oracle.root[k];
+    double bound =
+        fmax(bound_at(trial, hit, (int)hit->id), bound_at(trial, hit, trial->truth->patch[k]));
+    return hit->t > c->t + slack_of(c, bound, &trial->truth->ray->ray) &&
+           !near_between(trial->truth, c->t, hit->t, bound);
+}
+
+static StressVerdict judge_nearest(const Trial *trial) {
+    const StressAnswer *a = trial->answer;
+    StressTruth *truth = trial->truth;
+    const RayOracle *o = &truth->oracle;
+    for (RayOraclePrecision level = ORACLE_QUICK; level <= ORACLE_EXACT; level++) {
+        find(truth, level);
+        bool open = false;
+        for (int k = 0; k < o->count; k++) {
+            const RayOracleRoot *c = &o->root[k];
+            double most = bound_at(trial, NULL, truth->patch[k]);
+            if (c->kind == ROOT_CERTAIN) {
+                if (!surely_in_range(truth, c, most))
+                    continue;
+                if (!a->found || !a->any)
+                    return a->found ? STRESS_DIFFER : STRESS_MISSED;
+                if (behind(trial, &a->hit, k))
+                    return STRESS_ORDER;
+            } else {
+                // Only matters when it may lie before the answer.
+                open |=
+                    c->t + c->dt >= truth->ray->t_min && c->t - c->dt < truth->ray->t_max &&
+                    (!a->found || c->t - c->dt < a->hit.t - slack_of(c, most, &truth->ray->ray));
+            }
+        }
+        if (!open)
+            return STRESS_FINE;
+    }
+    truth->open = true;
+    return STRESS_FINE;
+}
+
+static bool accounts(const Trial *trial, const PatchHit *hit, int k, bool far) {
+    StressTruth *truth = trial->truth;
+    const RayOracleRoot *c = &truth->oracle.root[k];
+    if ((int)hit->id != truth->patch[k] && !stress_is_triangles(trial->method))
+        return false;
+    double bound = bound_at(trial, hit, truth->patch[k]);
+    if (!far)
+        return fabs(hit->t - c->t) <= slack_of(c, bound, &truth->ray->ray);
+    // Crossings that the tolerance can't tell apart may be one.
+    return near_between(truth, c->t, hit->t, bound_at(trial, NULL, truth->patch[k]));
+}
+
+static StressVerdict judge_all(const Trial *trial) {
+    const StressAnswer *a = trial->answer;
+    StressTruth *truth = trial->truth;
+    const RayOracle *o = &truth->oracle;
+    for (int k = 0; k < o->count; k++) {
+        const RayOracleRoot *c = &o->root[k];
+        bool found = c->kind != ROOT_CERTAIN ||
+                     !surely_in_range(truth, c, bound_at(trial, NULL, truth->patch[k]));
+        for (int far = 0; far < 2; far++)
+            for (int i = 0; !found && i < a->count; i++)
+                found = accounts(trial, &a->all[i], k, far);
+        if (!found)
+            return STRESS_LOST;
+    }
+    double length = length_of(truth->ray->ray.dir);
+    for (int i = 0; i < a->count; i++) {
+        for (int j = 0; j < i; j++) {
+            const PatchHit *p = &a->all[i], *q = &a->all[j];
+            if (p->id != q->id || fabs(p->u - q->u) > 1e-6 || fabs(p->v - q->v) > 1e-6 ||
+                fabs(p->t - q->t) * length > p->bound + q->bound)
+                continue;
+            int certain = 0, other = 0;
+            for (int k = 0; k < o->count; k++) {
+                const RayOracleRoot *c = &o->root[k];
+                if (truth->patch[k] != (int)p->id)
+                    continue;
+                bool here = fabs(c->u - p->u) < 1e-5 && fabs(c->v - p->v) < 1e-5;
+                certain += here && c->kind == ROOT_CERTAIN && c->sine > 1e-3;
+                other += c->kind != ROOT_CERTAIN || (here && c->sine <= 1e-3);
+            }
+            if (certain == 1 && other == 0)
+                return STRESS_TWICE;
+        }
+    }
+    return STRESS_FINE;
+}
+
+// A surface that must be there by construction.
+static StressVerdict judge_known(const Trial *trial) {
+    const StressAnswer *a = trial->answer;
+    StressTruth *truth = trial->truth;
+    const StressRay *r = truth->ray;
+    bool edges = trial->which->aim == stress_cases[0].aim;
+    double bound = bound_at(trial, NULL, a->found ? (int)a->hit.id : 0);
+    double slack = 8.0 * bound / length_of(r->ray.dir) + 8.0 * DBL_EPSILON * r->t_known;
+    if (a->found && a->any && a->hit.t <= r->t_known + fmax(slack, edges ? 1e-6 : 0.0))
+        return STRESS_FINE;
+    if (!edges)
+        return a->found ? (a->any ? STRESS_ORDER : STRESS_DIFFER) : STRESS_MISSED;
+    // The target was rounded: at an outline the ray may truly pass beside it.
+    find(truth, ORACLE_EXACT);
+    for (int k = 0; k < truth->oracle.count; k++) {
+        const RayOracleRoot *c = &truth->oracle.root[k];
+        if (c->kind == ROOT_OPEN || c->t < r->t_min)
+            continue;
+        if (!a->found)
+            return STRESS_MISSED;
+        if (behind(trial, &a->hit, k))
+            return STRESS_ORDER;
+    }
+    truth->open = true;
+    return STRESS_FINE;
+}
+
+StressVerdict stress_judge(const StressCase *which, PatchMethod method, StressTruth *truth,
+                           const StressAnswer *answer) {
+    Trial trial = {which, method, truth, answer};
+    StressExpect expect = truth->ray->expect;
+    if (expect == EXPECT_NONE)
+        return answer->found || answer->any || answer->count ? STRESS_FALSE : STRESS_FINE;
+    if (answer->found) {
+        StressVerdict verdict = judge_hit(which, method, truth, &answer->hit);
+        if (verdict != STRESS_FINE)
+            return verdict;
+    }
+    for (int k = 0; k < answer->count; k++) {
+        StressVerdict verdict = judge_hit(which, method, truth, &answer->all[k]);
+        if (verdict != STRESS_FINE)
+            return verdict;
+    }
+    StressVerdict verdict = expect == EXPECT_HIT ? judge_known(&trial) : judge_nearest(&trial);
+    if (verdict != STRESS_FINE)
+        return verdict;
+    if (answer->found != answer->any && !truth->open)
+        return STRESS_DIFFER;
+    if (answer->has_all && expect == EXPECT_TRUTH)
+        return judge_all(&trial);
+    return STRESS_FINE;
+}
+
+StressVerdict stress_judge_left(const StressAnswer *answer, StressTruth *truth, double reach) {
+    const StressRay *r = truth->ray;
+    const StressScene *s = truth->scene;
+    // The same surface, as far as the bound of the hit that was left can tell?
+    if (answer->found &&
+        ray_oracle_near(s->defs, s->count, &r->ray, 0.0, answer->hit.t, 0.5 * reach))
+        return STRESS_FALSE;
+    // What was left out before t_min must have been that surface.
+    find(truth, ORACLE_QUICK);
+    for (int k = 0; k < truth->oracle.count; k++) {
+        const RayOracleRoot *c = &truth->oracle.root[k];
+        if (c->kind == ROOT_CERTAIN && c->t < r->t_min &&
+            c->t * length_of(r->ray.dir) > 16.0 * reach &&
+            !ray_oracle_near(s->defs, s->count, &r->ray, 0.0, c->t, 16.0 * reach))
+            return STRESS_MISSED;
+    }
+    return STRESS_FINE;
+}

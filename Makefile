@@ -170,6 +170,15 @@ demo: deps
 clean:
 	rm -rf build
 
+# Pictures against POV-Ray's, with a table: all textures of the standard includes; the texture scenes
+# of povray-examples. 200,000 random points through random patterns. Minutes each.
+sheet: all
+	@tests/texture_sheet.sh
+examples-pictures: all
+	@tests/examples_pictures.sh
+points: build/test/test_points
+	@POINTS_ROUNDS=20 build/test/test_points
+
 # All scenes of povray-examples and all standard includes, against POV-Ray: minutes.
 test-examples: deps
 	@$(MAKE) --no-print-directory -j$$(nproc) build/pov2qi
@@ -203,5 +212,5 @@ stress: deps
 	@$(MAKE) --no-print-directory -j$$(nproc) build/stress
 	@build/stress $(STRESS)
 
-.PHONY: install all deps test test-examples fuzz lint demo gallery bench bench-rays stress clean
+.PHONY: sheet examples-pictures points install all deps test test-examples fuzz lint demo gallery bench bench-rays stress clean
 -include $(shell find build -name '*.d' 2>/dev/null)

@@ -64,12 +64,18 @@ Transform transform_rotate(Vec3 deg) {
     return t;
 }
 
+// The determinant of three rows, its terms in POV-Ray's order.
+static double minor_of(const double a[3], const double b[3], const double c[3]) {
+    return a[0] * b[1] * c[2] + a[1] * b[2] * c[0] + a[2] * b[0] * c[1] - c[0] * b[1] * a[2] -
+           c[1] * b[2] * a[0] - c[2] * b[0] * a[1];
+}
+
 bool transform_matrix(const double rows[4][3], Transform *out) {
     Transform t = transform_identity();
     for (int i = 0; i < 4; i++)
         for (int j = 0; j < 3; j++)
             t.m[i][j] = rows[i][j];
-    // Invert the 3x3 part by cofactors, then the translation: p = (p' - T) A^-1.
+    // By cofactors, the translation too: POV-Ray inverts all of a 4x4 matrix so.
     Vec3 a = vec3(rows[0][0], rows[0][1], rows[0][2]), b = vec3(rows[1][0], rows[1][1], rows[1][2]),
          c = vec3(rows[2][0], rows[2][1], rows[2][2]);
     Vec3 bc = vec_cross(b, c), ca = vec_cross(c, a), ab = vec_cross(a, b);
@@ -82,8 +88,12 @@ bool transform_matrix(const double rows[4][3], Transform *out) {
         t.inv[1][j] = columns[j].y / det;
         t.inv[2][j] = columns[j].z / det;
     }
-    Vec3 back = transform_row_dir(t.inv, vec3(rows[3][0], rows[3][1], rows[3][2]));
-    t.inv[3][0] = -back.x, t.inv[3][1] = -back.y, t.inv[3][2] = -back.z;
+    t.inv[3][0] = -minor_of(rows[1], rows[2], rows[3]) / det;
+    t.inv[3][1] = minor_of(rows[0], rows[2], rows[3]) / det;
+    t.inv[3][2] = -minor_of(rows[0], rows[1], rows[3]) / det;
+    // The same determinant, summed in another order: a last bit from 1. It counts where this map
+    // follows another.
+    t.inv[3][3] = minor_of(rows[0], rows[1], rows[2]) / det;
     *out = t;
     return true;
 }

@@ -89,7 +89,8 @@ void check_transform(const Check *c, const FieldPath *up, const char *name, cons
     check_numbers(c, &path, "inverse", &t->inv[0][0], 16);
     for (int i = 0; i < 4; i++) {
         double last = i == 3 ? 1 : 0;
-        if (t->m[i][3] != last || t->inv[i][3] != last)
+        bool affine = i < 3 ? t->inv[i][3] == 0 : fabs(t->inv[3][3] - 1) <= 1e-6; // base/vec.c
+        if (t->m[i][3] != last || !affine)
             refuse(c, &matrix, "it is not affine");
         for (int j = 0; j < 4; j++) {
             double sum = 0, terms = 1;

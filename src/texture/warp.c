@@ -35,12 +35,12 @@ static Vec3 black_hole(const BlackHoleWarp *warp, Vec3 p) {
     if (warp->repeat) {
         Vec3 size = warp->repeat_size, u = warp->uncertainty;
         Vec3 b = vec3(block(p.x, size.x), block(p.y, size.y), block(p.z, size.z));
-        center = vec_add(center, vec_mul(size, b));
         if (u.x != 0.0 || u.y != 0.0 || u.z != 0.0) {
             uint32_t i = noise_cell(noise_int(b.x), noise_int(b.y), noise_int(b.z));
             center = vec_add(center, vec3(noise_random(i) * u.x, noise_random(i + 1) * u.y,
                                           noise_random(i + 2) * u.z));
         }
+        center = vec_add(center, vec_mul(size, b));
     }
     Vec3 d = vec_sub(p, center);
     double distance = vec_length(d);

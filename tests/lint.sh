@@ -32,7 +32,7 @@ base base
 image base image
 patch base patch
 kernel base patch kernel
-model base model
+model base model patch
 options base image options patch
 converter base converter function image model noise options
 shape base function model patch shape

@@ -582,6 +582,11 @@ static void make_patch(Rng *rng, Arena *arena, PatchShape *patch) {
     patch->points = ARENA_ARRAY(arena, Vec3, count);
     for (uint32_t i = 0; i < count; i++)
         patch->points[i] = random_vec3(rng);
+    if (random_below(rng, 3) == 0) {
+        patch->weights = ARENA_ARRAY(arena, double, count);
+        for (uint32_t i = 0; i < count; i++)
+            patch->weights[i] = exp(rng_range(rng, -9, 9));
+    }
     if (random_bool(rng))
         return;
     patch->type = (int)random_below(rng, 2);
@@ -960,6 +965,10 @@ static const char *patch_difference(const PatchShape *a, const PatchShape *b) {
     COMPARE(int, v_steps)
     COMPARE_ALL(a->uv, b->uv, 4)
     COMPARE_ALL(a->points, b->points, (a->degree_u + 1) * (a->degree_v + 1))
+    if (!a->weights != !b->weights)
+        return "weights";
+    if (a->weights)
+        COMPARE_ALL(a->weights, b->weights, (a->degree_u + 1) * (a->degree_v + 1))
     return NULL;
 }
 

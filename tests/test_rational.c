@@ -2,6 +2,7 @@
 // Rational patches: a sphere made of eight, which is exact; weights that change nothing; weights
 // from 1e-6 to 1e6; and the methods that have none.
 #include "patch_oracle.h"
+#include "pictures.h"
 
 #include "base/diag.h"
 #include "base/rng.h"
@@ -223,6 +224,77 @@ static void wild_weights(void **state) {
     }
 }
 
+// Writes the eight octants as patches of a scene file.
+static void write_octants(FILE *out) {
+    for (int n = 0; n < 8; n++) {
+        Patch p;
+        octant(n, &p);
+        fprintf(out, "%s{\"type\": \"bezier_patch\", \"texture\": 1, \"points\": [", n ? "," : "");
+        for (int i = 0; i < 3; i++) {
+            fprintf(out, "%s[", i ? "," : "");
+            for (int j = 0; j < 3; j++)
+                fprintf(out, "%s[%g, %g, %g]", j ? "," : "", p.s.p[3 * i + j].x, p.s.p[3 * i + j].y,
+                        p.s.p[3 * i + j].z);
+            fprintf(out, "]");
+        }
+        fprintf(out, "], \"weights\": [");
+        for (int i = 0; i < 3; i++)
+            fprintf(out, "%s[%.17g, %.17g, %.17g]", i ? "," : "", p.w[3 * i], p.w[3 * i + 1],
+                    p.w[3 * i + 2]);
+        fprintf(out, "]}");
+    }
+}
+
+// A picture of a sphere, shiny and with its shadow, and one in which eight patches stand for it.
+static void pictures_are_equal(void **state) {
+    (void)state;
+    static const char pov[] =
+        "camera { location <0,1,-4> look_at 0 } light_source { <5,9,-9>, 1 }\n"
+        "plane { y, -1 pigment { checker rgb 1, rgb 0.2 } }\n"
+        "sphere { 0, 1 pigment { rgb <1,0.6,0.2> } finish { phong 0.6 reflection 0.2 } }\n";
+    static const char sphere[] = "{\"type\": \"sphere\"";
+    char folder[2300], path[2400], line[4096], one[2500], two[2500];
+    snprintf(folder, sizeof folder, "%s", scratch_folder());
+    snprintf(path, sizeof path, "%s/ball.pov", folder);
+    FILE *out = fopen(path, "w");
+    assert_non_null(out);
+    fputs(pov, out);
+    fclose(out);
+    const char *log;
+    assert_int_equal(run_command(&log, "build/pov2qi '%s' -o '%s/ball.qi.json'", path, folder), 0);
+    snprintf(path, sizeof path, "%s/ball.qi.json", folder);
+    FILE *in = fopen(path, "r");
+    snprintf(path, sizeof path, "%s/octants.qi.json", folder);
+    out = fopen(path, "w");
+    assert_true(in && out);
+    int replaced = 0;
+    while (fgets(line, sizeof line, in)) {
+        bool here = strstr(line, sphere) != NULL;
+        if (here)
+            write_octants(out);
+        else
+            fputs(strstr(line, "\"requires\"") ? "\"requires\": [\"rational_patch\"],\n" : line,
+                  out);
+        replaced += here;
+    }
+    fclose(in);
+    fclose(out);
+    assert_int_equal(replaced, 1);
+    snprintf(one, sizeof one, "%s/ball.png", folder);
+    snprintf(two, sizeof two, "%s/octants.png", folder);
+    int status = run_command(&log,
+                             "build/qirender '%s/ball.qi.json' +W160 +H120 -A '+O%s' && "
+                             "build/qirender '%s/octants.qi.json' +W160 +H120 -A '+O%s'",
+                             folder, one, folder, two);
+    if (status != 0)
+        fail_msg("qirender: %s", log);
+    // A pixel or two on the outline or an edge of a mirrored check may fall to the other side.
+    assert_true(percent_over(one, two, 1.5 / 255.0) < 0.05);
+    status = run_command(
+        &log, "build/qirender '%s/octants.qi.json' +W16 +H12 --method facets '+O%s'", folder, two);
+    assert_true(status == 1 && strstr(log, "the method facets has no rational patches"));
+}
+
 static void commit_refused(void *method) {
     Patch p;
     octant(0, &p);
@@ -243,10 +315,9 @@ static void other_methods_refuse(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(sphere_of_octants),
-        cmocka_unit_test(weights_that_change_nothing),
-        cmocka_unit_test(wild_weights),
-        cmocka_unit_test(other_methods_refuse),
+        cmocka_unit_test(sphere_of_octants),  cmocka_unit_test(weights_that_change_nothing),
+        cmocka_unit_test(wild_weights),       cmocka_unit_test(other_methods_refuse),
+        cmocka_unit_test(pictures_are_equal),
     };
     return cmocka_run_group_tests_name("rational", tests, NULL, NULL);
 }

@@ -89,6 +89,42 @@ static void check_round_trip(bool binary) {
     }
 }
 
+static void write_text(const char *path, const char *text) {
+    FILE *out = fopen(path, "w");
+    assert_non_null(out);
+    fputs(text, out);
+    fclose(out);
+}
+
+// Bases other than Bézier's become it: a biquadratic span begins at the middle of the four points
+// about its corner; knots that are repeated at both ends leave Bézier points as they are.
+static void test_bases(void **state) {
+    (void)state;
+    Arena *arena = arena_create();
+    write_text(json_path,
+               "{\"format\": \"qipov-scene\", \"version\": 1, \"objects\": ["
+               "{\"type\": \"bezier_patch\", \"basis\": \"doo_sabin\", \"points\": "
+               "[[[0,0,0],[0,2,0],[0,4,1]], [[2,0,0],[2,2,2],[2,4,0]], [[4,0,0],[4,2,0],[4,4,0]]]},"
+               "{\"type\": \"bezier_patch\", \"basis\": \"bspline\", \"knots_u\": [0,0,3,3],"
+               "\"knots_v\": [1,1,2,2], \"weights\": [[1,1,1],[1,3,1],[1,1,2]], \"points\": "
+               "[[[0,0,0],[0,2,0],[0,4,1]], [[2,0,0],[2,2,2],[2,4,0]], [[4,0,0],[4,2,0],[4,4,0]]]}"
+               "]}");
+    Scene *scene = scene_read(json_path, arena);
+    const PatchShape *mesh = &scene->objects[0].shape.patch, *same = &scene->objects[1].shape.patch;
+    assert_true(mesh->degree_u == 2 && !mesh->weights);
+    Vec3 corner = mesh->points[0], middle = mesh->points[4];
+    assert_true(corner.x == 1 && corner.y == 1 && corner.z == 0.5);
+    assert_true(middle.x == 2 && middle.y == 2 && middle.z == 2);
+    assert_true(same->weights[4] == 3 && same->weights[8] == 2);
+    assert_true(same->points[4].z == 2 && same->points[2].z == 1 && same->points[8].x == 4);
+    scene_collect_requires(scene, arena);
+    bool rational = false;
+    for (uint32_t i = 0; i < scene->requires_count; i++)
+        rational |= strcmp(scene->requires[i], "rational_patch") == 0;
+    assert_true(rational);
+    arena_destroy(arena);
+}
+
 static void test_round_trip_text(void **state) {
     (void)state;
     check_round_trip(false);
@@ -328,6 +364,9 @@ static void test_unwritable(void **state) {
 #define WARP(more)                                                                                 \
     HEAD "\"pigments\": [{\"type\": \"bozo\", \"map\": [{\"value\": 0}], \"warps\": [{" more "}]}" \
          "]}"
+#define BEZIER                                                                                     \
+    "\"objects\": [{\"type\": \"bezier_patch\", \"points\": [[[0,0,0],[1,0,0]], "                  \
+    "[[0,1,0],[1,1,0]]], "
 #define NET                                                                                        \
     "[[[0,0,0],[1,0,0],[2,0,0],[3,0,0]], [[0,1,0],[1,1,0],[2,1,0],[3,1,0]],"                       \
     " [[0,2,0],[1,2,0],[2,2,0],[3,2,0]], [[0,3,0],[1,3,0],[2,3,0],[3,3,0]]]"
@@ -527,6 +566,25 @@ static const struct {
     {HEAD "\"objects\": [{\"type\": \"bezier_patch\", \"points\": "
           "[[[0,0,0],[1e70,1,1]],[[0,0,0],[1,1,1]]]}]}",
      "objects[0].points[0][1]: <1e+70, 1, 1> is out of range"},
+    {HEAD "\"objects\": [{\"type\": \"bicubic_patch\", \"basis\": \"bspline\", \"points\": " NET
+          "}]}",
+     "objects[0]: 'basis' goes only with the points of a bezier_patch"},
+    {HEAD BEZIER "\"weights\": [[1, 1]]}]}",
+     "objects[0].weights: 1 rows, but there are 2 of points"},
+    {HEAD BEZIER "\"weights\": [[1, 1], [1]]}]}",
+     "objects[0].weights[1]: expected 2 values, found 1"},
+    {HEAD BEZIER "\"weights\": [[1, 1], [1, 0]]}]}",
+     "objects[0].weights[1][1]: the weight 0 is not above 0"},
+    {HEAD BEZIER "\"weights\": [[1, 1], [1, -2]]}]}", "the weight -2 is not above 0"},
+    {HEAD BEZIER "\"weights\": [[1e40, 1], [1, 1]]}]}", "differ by more than 1e+30"},
+    {HEAD BEZIER "\"basis\": \"hermite\"}]}", "objects[0].basis: 'hermite' is none of"},
+    {HEAD BEZIER "\"basis\": \"doo_sabin\"}]}",
+     "objects[0].basis: a regular 'doo_sabin' patch has 3 rows of 3 points"},
+    {HEAD BEZIER "\"knots_u\": [0, 1]}]}", "knots go only with the basis"},
+    {HEAD BEZIER "\"basis\": \"bspline\", \"knots_u\": [0, 1, 2]}]}",
+     "objects[0].knots_u: expected 2 values, found 3"},
+    {HEAD BEZIER "\"basis\": \"bspline\", \"knots_v\": [1, 1]}]}",
+     "objects[0].knots_v: the middle two knots"},
     {HEAD "\"objects\": [{\"type\": \"bicubic_patch\", \"degree\": [3, 3], \"points\": " NET "}]}",
      "objects[0]: 'degree' goes only with points in a buffer"},
     {HEAD "\"objects\": [{\"type\": \"bicubic_patch\", \"count\": 2, \"points\": " NET "}]}",
@@ -714,13 +772,21 @@ static void test_hostile(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_round_trip_text), cmocka_unit_test(test_round_trip_binary),
-        cmocka_unit_test(test_comparison_sees), cmocka_unit_test(test_shared_maps),
-        cmocka_unit_test(test_paths),           cmocka_unit_test(test_numbers),
-        cmocka_unit_test(test_layout),          cmocka_unit_test(test_pattern_layout),
-        cmocka_unit_test(test_many_patches),    cmocka_unit_test(test_deep_unions),
-        cmocka_unit_test(test_unwritable),      cmocka_unit_test(test_refused),
-        cmocka_unit_test(test_trees),           cmocka_unit_test(test_paths_after_run),
+        cmocka_unit_test(test_bases),
+        cmocka_unit_test(test_round_trip_text),
+        cmocka_unit_test(test_round_trip_binary),
+        cmocka_unit_test(test_comparison_sees),
+        cmocka_unit_test(test_shared_maps),
+        cmocka_unit_test(test_paths),
+        cmocka_unit_test(test_numbers),
+        cmocka_unit_test(test_layout),
+        cmocka_unit_test(test_pattern_layout),
+        cmocka_unit_test(test_many_patches),
+        cmocka_unit_test(test_deep_unions),
+        cmocka_unit_test(test_unwritable),
+        cmocka_unit_test(test_refused),
+        cmocka_unit_test(test_trees),
+        cmocka_unit_test(test_paths_after_run),
         cmocka_unit_test(test_hostile),
     };
     return cmocka_run_group_tests_name("scene_json", tests, set_up, tear_down);

@@ -270,6 +270,7 @@ bool object_is_tree(const Object *object) {
     X(quilted)                                                                                     \
     X(radial)                                                                                      \
     X(rainbow)                                                                                     \
+    X(rational_patch)                                                                              \
     X(reflection)                                                                                  \
     X(reflection_fresnel)                                                                          \
     X(refraction)                                                                                  \
@@ -460,6 +461,8 @@ static Feature object_feature(const Object *object) {
     case OBJECT_PATCH: {
         const PatchShape *patch = &object->shape.patch;
         bool bicubic = patch->degree_u == 3 && patch->degree_v == 3;
+        if (patch->weights)
+            return FEATURE_rational_patch;
         return bicubic ? FEATURE_bicubic_patch : FEATURE_bezier_patch;
     }
     case OBJECT_PLANE:

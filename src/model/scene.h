@@ -477,6 +477,7 @@ typedef enum {
 typedef struct {
     uint32_t degree_u, degree_v; // 1..16; 3, 3 for bicubic_patch
     Vec3 *points;                // (degree_u + 1) * (degree_v + 1)
+    double *weights;             // of the points, > 0; NULL: all 1
     int type;                    // POV-Ray's 0 or 1; the picture is the same
     double flatness;             // this and the steps matter only to `facets`
     int u_steps, v_steps;        // recursion depths, not counts

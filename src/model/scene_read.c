@@ -12,13 +12,15 @@
 #include "model/scene_fields.h"
 #include "model/scene_format.h"
 #include "model/scene_read_json.h"
+#include "model/scene_read_patch.h"
 #include "model/scene_requires.h"
 
 #include <string.h>
 
 // ---- objects --------------------------------------------------------------------------------
 
-static const char *const PATCH_KEYS[] = {"type", "count", "degree", "points", NULL};
+static const char *const PATCH_KEYS[] = {"type",  "count",   "degree",  "points", "weights",
+                                         "basis", "knots_u", "knots_v", NULL};
 static const char *const TREE_KEYS[] = {"type", "children", "clipped_by", NULL};
 static const char *const OTHER_KEYS[] = {"type", "clipped_by", NULL};
 
@@ -193,8 +195,15 @@ static void read_patch(const Reader *r, const FieldPath *path, json_t *json, Obj
     if (!any_degree && (patch->degree_u != 3 || patch->degree_v != 3))
         path_die(r->file, &points_path,
                  "a bicubic_patch has 4 rows of 4 points (use bezier_patch)");
+    static const char *const WITH_ROWS[] = {"weights", "basis", "knots_u", "knots_v"};
+    for (int i = 0; i < 4; i++)
+        if ((!any_degree || !json_is_array(points)) && json_object_get(json, WITH_ROWS[i]))
+            path_die(r->file, path, "'%s' goes only with the points of a bezier_patch",
+                     WITH_ROWS[i]);
     if (!json_is_array(points))
         read_run(r, path, json, objects, count);
+    else if (any_degree)
+        read_patch_basis(r, path, json, patch);
 }
 
 static uint32_t *read_objects(Reader *r, const FieldPath *up, const char *name, json_t *list,

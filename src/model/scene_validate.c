@@ -160,6 +160,23 @@ static void check_rainbow(const Check *c, const FieldPath *path, const Rainbow *
 
 // ---- objects --------------------------------------------------------------------------------
 
+static void check_weights(const Check *c, const FieldPath *path, const PatchShape *patch) {
+    uint32_t columns = patch->degree_v + 1, count = (patch->degree_u + 1) * columns;
+    double least = INFINITY, most = 0.0;
+    for (uint32_t k = 0; k < count; k++) {
+        const FieldPath row = path_item(path, "weights", k / columns);
+        const FieldPath place = path_item(&row, NULL, k % columns);
+        double w = patch->weights[k];
+        if (!(isfinite(w) && w > 0.0))
+            refuse(c, &place, "the weight %g is not above 0", w);
+        least = fmin(least, w);
+        most = fmax(most, w);
+    }
+    // Their products must stay numbers.
+    if (most / least > MAX_WEIGHTS)
+        refuse(c, path, "the weights %g and %g differ by more than %g", least, most, MAX_WEIGHTS);
+}
+
 static void check_patch(const Check *c, const FieldPath *path, const PatchShape *patch) {
     if (patch->degree_u < 1 || patch->degree_u > SCENE_MAX_DEGREE || patch->degree_v < 1 ||
         patch->degree_v > SCENE_MAX_DEGREE)
@@ -168,6 +185,8 @@ static void check_patch(const Check *c, const FieldPath *path, const PatchShape 
     check_range(c, path, "patch_type", patch->type, 0, 1);
     check_numbers(c, path, "flatness", &patch->flatness, 1);
     check_numbers(c, path, "uv", &patch->uv[0].u, 8);
+    if (patch->weights)
+        check_weights(c, path, patch);
     for (uint32_t i = 0; i <= patch->degree_u; i++) {
         for (uint32_t j = 0; j <= patch->degree_v; j++) {
             Vec3 p = patch->points[i * (patch->degree_v + 1) + j];

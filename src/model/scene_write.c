@@ -314,7 +314,7 @@ static bool same_run(const Object *a, const Object *b) {
     if (b->type != OBJECT_PATCH)
         return false;
     const PatchShape *p = &a->shape.patch, *q = &b->shape.patch;
-    if (p->degree_u != q->degree_u || p->degree_v != q->degree_v)
+    if (p->degree_u != q->degree_u || p->degree_v != q->degree_v || q->weights)
         return false;
     for (const Record *record = object_record(OBJECT_PATCH); record; record = record->base)
         for (const Field *field = record->fields; field->name; field++)
@@ -381,7 +381,8 @@ static void write_object(Writer *w, const Object *object) {
     const Object defaults = object_default(object->type);
     const char *type = OBJECT_TYPE_NAMES[object->type];
     if (object->type == OBJECT_PATCH &&
-        (object->shape.patch.degree_u != 3 || object->shape.patch.degree_v != 3))
+        (object->shape.patch.degree_u != 3 || object->shape.patch.degree_v != 3 ||
+         object->shape.patch.weights))
         type = BEZIER_PATCH_NAME;
     Comma state = {true};
     fprintf(w->out, "{\"type\":\"%s\"", type);
@@ -389,6 +390,12 @@ static void write_object(Writer *w, const Object *object) {
     if (object->type == OBJECT_PATCH) {
         member(w, &state, "points");
         write_points(w, &object->shape.patch);
+        if (object->shape.patch.weights) {
+            member(w, &state, "weights");
+            write_rows(w, object->shape.patch.weights, (int)object->shape.patch.degree_u + 1,
+                       (int)object->shape.patch.degree_v + 1,
+                       (int)object->shape.patch.degree_v + 1);
+        }
     } else if (object_is_tree(object)) {
         member(w, &state, "children");
         write_objects(w, object->shape.children.items, object->shape.children.count);
@@ -406,7 +413,7 @@ static void write_objects(Writer *w, const uint32_t *items, uint32_t count) {
     for (uint32_t i = 0; i < count;) {
         const Object *object = &w->scene->objects[items[i]];
         comma(w, &state);
-        if (w->binary && object->type == OBJECT_PATCH) {
+        if (w->binary && object->type == OBJECT_PATCH && !object->shape.patch.weights) {
             i += write_run(w, &items[i], count - i);
         } else {
             write_object(w, object);

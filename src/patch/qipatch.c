@@ -77,6 +77,7 @@ static const char *fault_of(const QipatchPatch *patch, char text[160]) {
         patch->degree_v > QIPATCH_MAX_DEGREE)
         return "the degrees must lie between 1 and 16";
     size_t count = (size_t)(patch->degree_u + 1) * (patch->degree_v + 1);
+    double least = INFINITY, most = 0.0;
     for (size_t i = 0; i < count; i++) {
         const double *p = patch->points[i];
         if (!vec_is_finite(vec3(p[0], p[1], p[2]))) {
@@ -87,8 +88,10 @@ static const char *fault_of(const QipatchPatch *patch, char text[160]) {
             snprintf(text, 160, "weight %zu is not a finite number above 0", i);
             return text;
         }
+        least = fmin(least, patch->weights ? patch->weights[i] : 1.0);
+        most = fmax(most, patch->weights ? patch->weights[i] : 1.0);
     }
-    return NULL;
+    return most / least > 1e30 ? "the weights differ by more than 1e30" : NULL;
 }
 
 QipatchError qipatch_attach_patch(QipatchScene *scene, const QipatchPatch *patch, uint32_t *id) {

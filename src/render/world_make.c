@@ -147,6 +147,7 @@ static void add_patches(World *world, const PatchSetOptions *options) {
         PatchDef def = {.degree_u = patch->degree_u,
                         .degree_v = patch->degree_v,
                         .points = patch->points,
+                        .weights = patch->weights,
                         .id = leaf->position,
                         .mask = leaf->mask,
                         .flatness = patch->flatness,

@@ -24,7 +24,8 @@ endif
 WARN   = -Wall -Wextra -Wshadow -Werror
 CWARN  = $(WARN) -Wconversion -Wmissing-prototypes -Wstrict-prototypes
 FREETYPE := $(patsubst -I%,-isystem%,$(shell pkg-config --cflags-only-I freetype2 2>/dev/null))
-BASE   = -Isrc -I. $(FREETYPE) -ffp-contract=off -fopenmp -MMD -MP -D_GNU_SOURCE
+# gcc 12 takes (double)(float)x for x where it joins two of them into a vector.
+BASE   = -Isrc -I. $(FREETYPE) -ffp-contract=off -fno-tree-slp-vectorize -fopenmp -MMD -MP -D_GNU_SOURCE
 CFLAGS   ?= -O3 -g -DNDEBUG
 SAN      = -O1 -g -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=undefined -DHOSTILE
 C11    = -std=c11 $(CWARN) $(BASE)

@@ -4,6 +4,7 @@
 #include "converter/convert.h"
 
 #include "converter/language.h"
+#include "converter/probing.h"
 
 #include <signal.h>
 #include <stdio.h>
@@ -99,7 +100,9 @@ static Scene *convert_source(Converter *cv, const Source *source) {
     if (!cv->version_set)
         note_at(&start_of_file,
                 "no #version: read as version 3.62 where the picture depends on it");
-    return emit_scene(cv);
+    Scene *scene = emit_scene(cv);
+    probing_end(cv);
+    return scene;
 }
 
 Scene *convert_scene_listing(const RenderOptions *options, Arena *arena, MissingList *missing) {

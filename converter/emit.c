@@ -18,6 +18,10 @@ static bool same_place(const Loc *a, const Loc *b) {
 }
 
 void emit_gap(Emitter *e, const Loc *loc, const char *text) {
+    if (e->quiet) {
+        e->gap = e->gap ? e->gap : text;
+        return;
+    }
     Said **bucket = &e->said[((unsigned)loc->line * 31u + (unsigned)loc->column) % SAID_BUCKETS];
     for (const Said *said = *bucket; said; said = said->next)
         if (same_place(said->loc, loc) && strcmp(said->text, text) == 0)
@@ -523,5 +527,30 @@ Scene *emit_scene(Converter *cv) {
         warn("'%s' shows no objects", cv->options->input);
     scene_collect_requires(e->scene, cv->arena);
     scene_validate(e->scene, cv->options->input);
+    return e->scene;
+}
+
+const Scene *emit_part(Converter *cv, const ObjectNode *object, const PatternNode *pigment,
+                       uint32_t *index, const char **gap) {
+    Emitter *e = ARENA_NEW(cv->arena, Emitter);
+    e->cv = cv;
+    e->quiet = true;
+    e->scene = ARENA_NEW(cv->arena, Scene);
+    emit_settings(e);
+    e->scene->camera = camera_default();
+    const Inherited body = {.body = true};
+    uint32_t root = object ? emit_object(e, object, &body) : NO_INDEX;
+    if (root != NO_INDEX)
+        array_push(&e->roots, root);
+    if (pigment)
+        *index = emit_pigment(e, pigment);
+    keep_pools(e);
+    // A ray of trace() meets all objects.
+    for (uint32_t i = 0; i < e->scene->object_count; i++) {
+        Object *flags = &e->scene->objects[i];
+        flags->no_image = flags->no_reflection = flags->no_shadow = false;
+    }
+    scene_validate(e->scene, cv->options->input);
+    *gap = e->gap;
     return e->scene;
 }

@@ -35,6 +35,8 @@ enum { SAID_BUCKETS = 256 };
 typedef struct {
     Converter *cv;
     Scene *scene;
+    bool quiet; // gaps are not said; the first one is kept
+    const char *gap;
     Said *said[SAID_BUCKETS];
     ARRAY(Object) objects;
     ARRAY(uint32_t) roots;
@@ -59,6 +61,11 @@ typedef struct {
 
 // requires.c: adds to cv->missing.
 void requires_add(Converter *cv, const Loc *loc, const char *text);
+// A part of the scene that the text asks about: the object as the only root (none if nothing of it
+// is modelled), or the pigment, whose index is stored. *gap: the first thing that is not modelled
+// in it, or NULL.
+const Scene *emit_part(Converter *cv, const ObjectNode *object, const PatternNode *pigment,
+                       uint32_t *index, const char **gap);
 // Warns once a place and text.
 void emit_gap(Emitter *e, const Loc *loc, const char *text);
 void emit_gaps(Emitter *e, const Gap *gaps); // in the order in which they were noted

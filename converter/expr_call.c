@@ -4,6 +4,7 @@
 #include "converter/language.h"
 
 #include "base/file.h"
+#include "noise/noise.h"
 
 #include <limits.h>
 #include <math.h>
@@ -256,11 +257,6 @@ double days_since_2000(void) {
     return ((double)(now.tv_sec - 946684800) + (double)now.tv_nsec * 1e-9) / 86400;
 }
 
-_Noreturn static void die_unmodelled(Converter *cv, const Token *name, const char *hint) {
-    Loc loc = token_loc(cv, name);
-    die_at(&loc, "%s() is not modelled yet%s", name->text, hint);
-}
-
 // Constants without parentheses.
 static bool constant(Converter *cv, const Token *name, double *out) {
     switch (name->code) {
@@ -335,7 +331,7 @@ static double float_call(Converter *cv, const Token *name) {
     case KW_vlength:
         return vec_length(one_vector(cv));
     default: // KW_inside
-        die_unmodelled(cv, name, ": put the test into the scene by hand");
+        return inside_call(cv, name);
     }
 }
 
@@ -461,22 +457,22 @@ static Vec3 vnormalize_call(Converter *cv, const Token *name) {
     return vec3(0, 0, 0);
 }
 
-// min_extent ( object ), max_extent ( object or image_map pigment )
-static Vec3 extent_call(Converter *cv, const Token *name) {
-    expect(cv, '(', name->text);
-    const Token *what = peek_token(cv);
-    const Value *value = accept_value(cv, VALUE_OBJECT);
-    if (!value)
-        value = accept_value(cv, VALUE_PIGMENT);
-    if (!value)
-        die_expected(cv, "object identifier");
-    Box box;
-    if (!object_extent(cv, value, &box)) {
-        Loc loc = token_loc(cv, what);
-        die_at(&loc, "%s of this %s is not known", name->text, value_type_name(value->type));
-    }
-    expect(cv, ')', name->text);
-    return name->code == KW_min_extent ? box.low : box.high;
+// vturbulence ( lambda , omega , octaves , V )
+static Vec3 vturbulence_call(Converter *cv) {
+    expect(cv, '(', "vturbulence");
+    double lambda = parse_float(cv);
+    optional_comma(cv);
+    double omega = parse_float(cv);
+    optional_comma(cv);
+    double octaves = to_int(parse_float(cv));
+    optional_comma(cv);
+    Vec3 p = parse_vector(cv);
+    optional_comma(cv);
+    expect(cv, ')', "vturbulence");
+    const NoiseOctaves sum = {
+        .octaves = (int)fmin(fmax(octaves, 1), 10), .lambda = (float)lambda, .omega = (float)omega};
+    noise_prepare();
+    return noise_turbulence_vector(p, &sum);
 }
 
 static Vec3 vector_call(Converter *cv, const Token *name) {
@@ -498,9 +494,9 @@ static Vec3 vector_call(Converter *cv, const Token *name) {
     case KW_max_extent:
         return extent_call(cv, name);
     case KW_vturbulence:
-        die_unmodelled(cv, name, "");
+        return vturbulence_call(cv);
     default: // KW_trace
-        die_unmodelled(cv, name, ": it needs the finished objects while the scene is still read");
+        return trace_call(cv, name);
     }
 }
 

@@ -110,7 +110,10 @@ static Box leaf_box(const ObjectNode *node) {
     case OBJECT_BOX:
     case OBJECT_TORUS: {
         Box box = local_box(object);
-        return object->has_transform ? transformed_box(box, &object->transform) : box;
+        if (!object->has_transform)
+            return box;
+        box = round_box(box);
+        return transformed_box(box, &object->transform);
     }
     case OBJECT_CYLINDER:
     case OBJECT_CONE:
@@ -121,8 +124,11 @@ static Box leaf_box(const ObjectNode *node) {
     }
     case OBJECT_PATCH:
         return points_box(object->shape.patch.points, 16);
-    case OBJECT_TRIANGLE:
-        return points_box(object->shape.triangle.p, 3);
+    case OBJECT_TRIANGLE: {
+        Box box = points_box(object->shape.triangle.p, 3);
+        Vec3 little = vec3(1e-10, 1e-10, 1e-10);
+        return (Box){vec_sub(box.low, little), vec_add(box.high, little)};
+    }
     case OBJECT_PLANE:
     case OBJECT_UNION:
     case OBJECT_MERGE:
@@ -212,5 +218,9 @@ bool node_extent(const ObjectNode *node, Box *out) {
 
 bool object_extent(Converter *cv, const Value *value, Box *out) {
     (void)cv;
-    return value->type == VALUE_OBJECT && node_extent(value->node, out);
+    if (value->type != VALUE_OBJECT || !node_extent(value->node, out))
+        return false;
+    // POV-Ray adds low corner and lengths in single precision.
+    out->high = vec3(to_float(out->high.x), to_float(out->high.y), to_float(out->high.z));
+    return true;
 }

@@ -4,7 +4,7 @@
 // renderer.
 #include "converter/function.h"
 
-#include "converter/nodes.h"
+#include "converter/probing.h"
 #include "noise/noise.h"
 
 #include <string.h>
@@ -150,23 +150,28 @@ int user_function_width(const Converter *cv, const UserFunction *user) {
     return function_width(code_of(cv, user));
 }
 
-_Noreturn static void die_pigment(const void *world, uint32_t pigment) {
-    const Converter *cv = world;
-    die_at(&cv->language->function_pigments.items[pigment].loc,
-           "The value of this pigment or pattern is needed to read this scene, and is not modelled "
-           "yet");
+// The pigment of a function, ready to be asked.
+static const Probe *pigment_probe(const void *world, uint32_t pigment, uint32_t *index) {
+    Converter *cv = (Converter *)(uintptr_t)world;
+    const FunctionPigment *asked = &cv->language->function_pigments.items[pigment];
+    const char *gap;
+    const Probe *probe = probing_pigment(cv, asked->node, index, &gap);
+    if (!probe)
+        die_at(&asked->loc, "The value of this function is needed to read this scene: %s", gap);
+    return probe;
 }
 
 static void pigment_value(const void *world, uint32_t pigment, Vec3 p,
                           double color[FUNCTION_WIDTH]) {
-    (void)p;
-    (void)color;
-    die_pigment(world, pigment);
+    uint32_t index;
+    const Probe *probe = pigment_probe(world, pigment, &index);
+    probe_color(probe, index, p, color);
 }
 
 static double pattern_value(const void *world, uint32_t pigment, Vec3 p) {
-    (void)p;
-    die_pigment(world, pigment);
+    uint32_t index;
+    const Probe *probe = pigment_probe(world, pigment, &index);
+    return probe_pattern(probe, index, p);
 }
 
 FunctionPool function_pool(Converter *cv) {

@@ -113,6 +113,11 @@ bool is_vector_keyword(int code);
 double full_in_parentheses(Converter *cv, const char *where); // ( FULL )
 double days_since_2000(void);
 
+// expr_object.c: after the function's name.
+Vec3 trace_call(Converter *cv, const Token *name);
+Vec3 extent_call(Converter *cv, const Token *name);
+double inside_call(Converter *cv, const Token *name);
+
 // expr_color.c
 bool is_color_keyword(int code);
 void parse_color_components(Converter *cv, float out[5], bool with_filter);
@@ -193,6 +198,13 @@ typedef struct {
     Loc loc; // of the function's body
 } FunctionPigment;
 
+// What the text has asked about before the scene is complete: probing.c.
+typedef struct ProbeEntry ProbeEntry;
+typedef struct {
+    ProbeEntry *entries;
+    size_t count, capacity;
+} ProbeTable;
+
 typedef struct Language {
     // cursor.c
     const Token *ahead; // read but not consumed, or NULL
@@ -217,6 +229,7 @@ typedef struct Language {
     LIST(uint32_t) seeds;     // states of the random streams
     LIST(Function) functions; // all that were ever declared: function.c
     LIST(FunctionPigment) function_pigments;
+    ProbeTable probes;
     UserFile *written;
     size_t elements;     // of all arrays
     char debug_line[96]; // debug_text.c: of #debug, until its end comes

@@ -7,13 +7,14 @@
 #include <stdbool.h>
 
 bool debug_has_povray(void);
-// Both: the lines, in the heap, after them a "!" and the message if the program is wrong (povray:
-// only the "!"). path: of the program.
+// The folder of a program is a library path. Both: the lines, in the heap, after them a "!" and the
+// message if the program is wrong (povray: only the "!"). path: of the program.
 char *debug_of_povray(const char *path);
 char *debug_of_converter(const char *path);
 
 // Fails the running test where the lines differ, naming the line of the program that begins with
 // the same word ("@17 ..." is looked for as `"@17 `), and prints both.
-void assert_debug_equal(const char *path);
+// The program may be wrong for both, unless it must be right.
+void assert_debug_equal(const char *path, bool right);
 
 #endif

@@ -34,9 +34,10 @@ patch base patch
 kernel base patch kernel
 model base model patch
 options base image options patch
-converter base converter function image model noise options
+converter base converter function image model noise options probe
 shape base function model patch shape
 noise base noise
+probe base model patch probe render texture
 function base model noise function
 texture base function image model noise texture
 render base function image kernel model noise options patch render shape texture

@@ -80,7 +80,7 @@ static void internal_values(void **state) {
         write_internal(out, n, &rng);
     fputs("sphere { 0, 1 }\n", out);
     fclose(out);
-    assert_debug_equal(path);
+    assert_debug_equal(path, true);
 }
 
 // ---- programs by hand -----------------------------------------------------------------------

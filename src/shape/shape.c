@@ -153,7 +153,7 @@ bool shape_inside(const Shape *shape, Vec3 p) {
     case SHAPE_PLANE:
         return plane_inside(shape, p);
     case SHAPE_SPHERE:
-        return sphere_inside(shape, p) != shape->inverse;
+        return sphere_inside(shape, p);
     case SHAPE_BOX:
         return box_inside(shape, p) != shape->inverse;
     case SHAPE_CYLINDER:

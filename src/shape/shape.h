@@ -154,7 +154,7 @@ void sphere_prepare(Shape *shape, const SphereShape *sphere);
 int sphere_hits(const Shape *shape, const Ray *ray, ShapeHit hits[SHAPE_MAX_HITS]);
 Vec3 sphere_normal(const Shape *shape, Vec3 p);
 Vec2 sphere_uv(const Shape *shape, Vec3 p);
-bool sphere_inside(const Shape *shape, Vec3 p);
+bool sphere_inside(const Shape *shape, Vec3 p); // `inverse` applied
 Box sphere_bounds(const Shape *shape);
 
 void box_prepare(Shape *shape, const BoxShape *box);

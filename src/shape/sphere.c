@@ -37,10 +37,9 @@ int sphere_hits(const Shape *shape, const Ray *ray, ShapeHit hits[SHAPE_MAX_HITS
 Vec3 sphere_normal(const Shape *shape, Vec3 p) {
     const SphereData *sphere = &shape->as.sphere;
     Vec3 out = vec_sub(shape_local_point(shape->transform, p), sphere->center);
-    // POV-Ray divides by the radius only when there is no transform: a negative one turns the
-    // normal.
-    if (sphere->radius < 0.0 && !shape->transform)
-        out = vec_neg(out);
+    // POV-Ray divides by the radius when there is no transform: a negative one turns the normal.
+    if (!shape->transform)
+        return vec_scale(out, 1.0 / sphere->radius);
     return shape_world_normal(shape->transform, out, vec3(0, 1, 0));
 }
 
@@ -61,7 +60,9 @@ Vec2 sphere_uv(const Shape *shape, Vec3 p) {
 bool sphere_inside(const Shape *shape, Vec3 p) {
     const SphereData *sphere = &shape->as.sphere;
     Vec3 out = vec_sub(shape_local_point(shape->transform, p), sphere->center);
-    return vec_dot(out, out) < sphere->radius2;
+    double distance2 = vec_dot(out, out);
+    // The surface itself belongs to neither.
+    return shape->inverse ? distance2 > sphere->radius2 : distance2 < sphere->radius2;
 }
 
 Box sphere_bounds(const Shape *shape) {

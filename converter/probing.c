@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+// Objects and pigments that the text asks about while it is read: each becomes a small scene once,
+// when it is first asked about, and is kept by the address of its node, since nodes do not change.
+#include "converter/probing.h"
+
+#include "converter/emit.h"
+#include "converter/language.h"
+
+#include <stdint.h>
+
+struct ProbeEntry {
+    const void *node; // NULL: free
+    Probe *probe;     // NULL: not possible
+    const char *gap;  // why not, or NULL
+    uint32_t pigment;
+};
+
+static size_t slot_of(const ProbeTable *table, const void *node) {
+    size_t slot = ((uintptr_t)node >> 4) * 0x9E3779B97F4A7C15u >> 20 & (table->capacity - 1);
+    while (table->entries[slot].node && table->entries[slot].node != node)
+        slot = (slot + 1) & (table->capacity - 1);
+    return slot;
+}
+
+static void grow(Converter *cv, ProbeTable *table) {
+    ProbeTable grown = {.capacity = table->capacity ? 2 * table->capacity : 16,
+                        .count = table->count};
+    grown.entries = ARENA_ARRAY(cv->arena, ProbeEntry, grown.capacity);
+    for (size_t i = 0; i < table->capacity; i++)
+        if (table->entries[i].node)
+            grown.entries[slot_of(&grown, table->entries[i].node)] = table->entries[i];
+    *table = grown;
+}
+
+// The place of the node in the table; *made: it is new.
+static ProbeEntry *entry_of(Converter *cv, const void *node, bool *made) {
+    ProbeTable *table = &cv->language->probes;
+    if (2 * (table->count + 1) > table->capacity)
+        grow(cv, table);
+    ProbeEntry *entry = &table->entries[slot_of(table, node)];
+    *made = !entry->node;
+    if (*made)
+        table->count++;
+    entry->node = node;
+    return entry;
+}
+
+const Probe *probing_object(Converter *cv, const ObjectNode *object, const char **gap) {
+    bool made;
+    ProbeEntry *entry = entry_of(cv, object, &made);
+    if (made) {
+        const Scene *scene = emit_part(cv, object, NULL, NULL, &entry->gap);
+        if (scene->root_count > 0)
+            entry->probe = probe_create(scene);
+    }
+    *gap = entry->gap;
+    return entry->probe;
+}
+
+const Probe *probing_pigment(Converter *cv, const PatternNode *pigment, uint32_t *index,
+                             const char **gap) {
+    bool made;
+    ProbeEntry *entry = entry_of(cv, pigment, &made);
+    if (made) {
+        const Scene *scene = emit_part(cv, NULL, pigment, &entry->pigment, &entry->gap);
+        if (!entry->gap)
+            entry->probe = probe_create(scene);
+    }
+    *gap = entry->gap;
+    *index = entry->pigment;
+    return entry->probe;
+}
+
+void probing_end(Converter *cv) {
+    ProbeTable *table = &cv->language->probes;
+    for (size_t i = 0; i < table->capacity; i++)
+        probe_destroy(table->entries[i].probe);
+    *table = (ProbeTable){0};
+}

@@ -10,11 +10,11 @@
 #include "debug_output.h"
 
 #include "base/arena.h"
-#include "base/console.h"
 #include "base/diag.h"
 #include "base/file.h"
 #include "converter/convert.h"
 
+#include <fcntl.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -85,17 +85,20 @@ static void convert(void *arg) {
 char *debug_of_converter(const char *path) {
     char out[64];
     side_path(out, "ours");
-    unlink(out);
-    console_show(CONSOLE_DEBUG, false);
-    console_copy(CONSOLE_DEBUG, out, false);
+    fflush(stderr);
+    int terminal = dup(STDERR_FILENO), file = open(out, O_WRONLY | O_CREAT | O_TRUNC, 0666);
+    assert_true(terminal >= 0 && file >= 0);
+    dup2(file, STDERR_FILENO);
+    close(file);
     diag_quiet(true);
     Job job = {.options = {.width = 4, .height = 3}, .arena = arena_create()};
     job.options.input = path;
     char *message = NULL, *marked = NULL;
     bool right = diag_catch(convert, &job, &message);
     arena_destroy(job.arena);
-    console_copy(CONSOLE_DEBUG, "/dev/null", false);
-    console_show(CONSOLE_DEBUG, true);
+    fflush(stderr);
+    dup2(terminal, STDERR_FILENO);
+    close(terminal);
     char *text = marked_lines(out, right ? "" : "!");
     if (right)
         return text;

@@ -8,27 +8,52 @@
 struct Probe {
     Arena *arena;
     const Scene *scene;
-    World *world; // NULL: the scene has only pigments
-    Textures textures;
+    World *world;   // NULL: the scene has only pigments
+    World **bodies; // one per projection of the scene: what patterns look into
+    Textures *textures;
 };
 
 // POV-Ray's least depth of a hit that counts.
 static const double NEAREST = 1e-4;
 
+static World *make_world(const Scene *scene) {
+    PatchSetOptions patches = patchset_options_default();
+    patches.method = METHOD_FACETS;
+    return world_create(scene, &patches);
+}
+
+// The object of a pattern alone.
+static World *make_body(Arena *arena, const Scene *scene, uint32_t projection) {
+    Scene *alone = arena_copy(arena, scene, sizeof *scene);
+    alone->roots = &scene->projections[projection];
+    alone->root_count = 1;
+    return make_world(alone);
+}
+
+static bool in_body(const void *objects, uint32_t object, Vec3 p) {
+    const Probe *probe = objects;
+    return world_inside(probe->bodies[object], probe->scene->projections[object], p);
+}
+
 Probe *probe_create(const Scene *scene) {
     Arena *arena = arena_create();
     Probe *probe = ARENA_NEW(arena, Probe);
-    *probe = (Probe){.arena = arena, .scene = scene, .textures = textures_make(scene)};
-    PatchSetOptions patches = patchset_options_default();
-    patches.method = METHOD_FACETS;
+    *probe = (Probe){.arena = arena, .scene = scene, .textures = textures_create(scene, arena)};
+    probe->bodies = ARENA_ARRAY(arena, World *, scene->projection_count);
+    for (uint32_t i = 0; i < scene->projection_count; i++)
+        probe->bodies[i] = make_body(arena, scene, i);
+    probe->textures->inside = in_body;
+    probe->textures->objects = probe;
     if (scene->root_count > 0)
-        probe->world = world_create(scene, &patches);
+        probe->world = make_world(scene);
     return probe;
 }
 
 void probe_destroy(Probe *probe) {
     if (!probe)
         return;
+    for (uint32_t i = 0; i < probe->scene->projection_count; i++)
+        world_destroy(probe->bodies[i]);
     world_destroy(probe->world);
     arena_destroy(probe->arena);
 }
@@ -49,7 +74,7 @@ bool probe_inside(const Probe *probe, Vec3 p) {
 void probe_color(const Probe *probe, uint32_t pigment, Vec3 p, double color[FUNCTION_WIDTH]) {
     const TextureHit hit = texture_no_hit(false);
     Color c;
-    pigment_color(&probe->textures, pigment, &hit, p, &c);
+    pigment_color(probe->textures, pigment, &hit, p, &c);
     const float components[FUNCTION_WIDTH] = {c.r, c.g, c.b, c.filter, c.transmit};
     for (int i = 0; i < FUNCTION_WIDTH; i++)
         color[i] = components[i];
@@ -58,5 +83,5 @@ void probe_color(const Probe *probe, uint32_t pigment, Vec3 p, double color[FUNC
 double probe_pattern(const Probe *probe, uint32_t pigment, Vec3 p) {
     const Pattern *pattern = &probe->scene->pigments[pigment].pattern;
     const TextureHit hit = texture_no_hit(false);
-    return pattern_value(&probe->textures, pattern, &hit, pattern_point(pattern, p));
+    return pattern_value(probe->textures, pattern, &hit, pattern_point(pattern, p));
 }

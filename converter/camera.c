@@ -50,7 +50,8 @@ static void apply_look_at(Converter *cv, Reader *reader, const Token *token) {
     double handedness = vec_dot(vec_cross(camera->up, camera->direction), camera->right);
     Vec3 towards = vec_sub(node->look_at, camera->location);
     Loc loc = token_loc(cv, token);
-    if (vec_dot(towards, towards) < NEAR_ZERO)
+    // POV-Ray refuses less than 1e-5, too; a scene may be as small as that.
+    if (!(vec_dot(towards, towards) > 0.0))
         die_at(&loc, "look_at is the same point as the camera's location");
     towards = vec_normalize(towards);
     Vec3 across = vec_cross(node->sky, towards);

@@ -116,8 +116,8 @@ static void find_shadow(Tracer *tracer, const Surface *surface, uint32_t index, 
     if (light->has_area && tracer->shading->quality.area_lights)
         area_shadow(tracer, surface, index, s);
     else
-        shadow_filter(tracer, index, (Ray){surface->hit->p, s->dir}, s->distance,
-                      surface->path->inside, &s->color);
+        shadow_filter(tracer, index, surface->hit, s->dir, s->distance, surface->path->inside,
+                      &s->color);
     s->shadow_done = true;
 }
 

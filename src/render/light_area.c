@@ -68,7 +68,7 @@ static Rgb grid_color(Grid *grid, int i, int j) {
     const WorldHit *hit = grid->surface->hit;
     LightSample s = light_sample(tracer->shading, grid->index, hit->p, grid_offset(grid, i, j));
     *color = grid->color;
-    grid->fog_distance = shadow_filter_point(tracer, grid->index, (Ray){hit->p, s.dir}, s.distance,
+    grid->fog_distance = shadow_filter_point(tracer, grid->index, hit, s.dir, s.distance,
                                              grid->surface->path->inside, color);
     return *color;
 }

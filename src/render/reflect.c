@@ -82,6 +82,7 @@ Rgb reflect_trace(Tracer *tracer, const Surface *surface, const LayerReflection 
     const Path *path = surface->path;
     Path next = *path;
     next.ray.org = surface->hit->p;
+    next.from = surface->hit;
     next.ray.dir = reflect_dir(path->ray.dir, reflection->normal, surface->normal);
     next.weight = (float)reflection->weight;
     next.kind = RAY_REFLECTION;

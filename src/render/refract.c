@@ -28,6 +28,7 @@ bool refract_trace(Tracer *tracer, const Surface *surface, const Finish *finish,
     double ratio =
         interior_cross(tracer->shading->scene, path->inside, surface->body, &node, &next.inside);
     next.ray.org = surface->hit->p;
+    next.from = surface->hit;
     next.weight = weight;
     next.nesting++;
     if (fabs(ratio - 1.0) < SHADE_EPS) {

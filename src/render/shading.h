@@ -70,6 +70,7 @@ struct Shading {
 // A ray on its way: what its parent hands down.
 typedef struct {
     Ray ray;
+    const WorldHit *from; // where it starts; NULL: at the camera
     const InteriorList *inside;
     float weight;     // how much of the pixel it can still change; below adc_bailout it is black
     int level;        // counts up to max_trace_level; passing straight through costs none
@@ -168,14 +169,14 @@ void area_shadow(Tracer *tracer, const Surface *surface, uint32_t index, LightSa
 void area_shine(Tracer *tracer, const LitLayer *layer, uint32_t index, const LightSample *sample,
                 Rgb *color);
 
-// shadow.c: multiplies color by what ray (from the surface, unit dir) lets through to the light at
+// shadow.c: multiplies color by what is let through from the hit along dir (unit) to the light at
 // that distance. inside: the bodies around the surface's own ray.
-void shadow_filter(Tracer *tracer, uint32_t light, Ray ray, double distance,
+void shadow_filter(Tracer *tracer, uint32_t light, const WorldHit *from, Vec3 dir, double distance,
                    const InteriorList *inside, Rgb *color);
 // The two halves of it. One point of an area light: all but the fog behind the last surface between
 // them; returns how long that way is. And that fog, for the light as a whole.
-double shadow_filter_point(Tracer *tracer, uint32_t light, Ray ray, double distance,
-                           const InteriorList *inside, Rgb *color);
+double shadow_filter_point(Tracer *tracer, uint32_t light, const WorldHit *from, Vec3 dir,
+                           double distance, const InteriorList *inside, Rgb *color);
 void shadow_fog(const Shading *shading, uint32_t light, Ray ray, double distance,
                 const InteriorList *inside, Rgb *color);
 

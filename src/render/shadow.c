@@ -15,6 +15,10 @@
 // POV-Ray takes depths > SHADE_SHADOW_TOL; our queries take t >= t_min: the next number.
 static const double SHADOW_T_MIN = SHADE_SHADOW_TOL * (1.0 + DBL_EPSILON);
 
+static double shadow_tolerance(const Shading *shading) {
+    return SHADE_SHADOW_TOL * world_unit(shading->world);
+}
+
 // The bodies that swallow light and that the shadow ray has crossed an odd number of times: it is
 // inside those and those of the surface's own ray, but not inside both. Only fading and fog need
 // it.
@@ -90,6 +94,7 @@ typedef struct {
     const Shading *shading;
     const Light *light;
     Ray ray;
+    WorldNear near;
     const InteriorList *inside;
     Crossed crossed;
 } Way;
@@ -160,7 +165,7 @@ static bool find_projection(Tracer *tracer, uint32_t light, const Ray *ray, doub
         return true;
     if (!world_intersect(world, ray, SHADE_MIN_DEPTH, distance, RAY_ALL, &tracer->stats, &hit))
         return false;
-    *before = distance - hit.t + SHADE_SHADOW_TOL;
+    *before = distance - hit.t + shadow_tolerance(tracer->shading);
     return true;
 }
 
@@ -169,19 +174,20 @@ static double follow(Tracer *tracer, Way *way, double distance, double before, R
     const World *world = way->shading->world;
     const Rgb black = {0};
     if (way->shading->all_opaque) {
-        if (world_occluded(world, &way->ray, SHADOW_T_MIN, distance - before, &tracer->stats))
+        if (world_blocked(world, &way->ray, way->near, distance - before, &tracer->stats))
             *color = black;
         return distance;
     }
     WorldHit hit;
-    while (world_intersect(world, &way->ray, SHADOW_T_MIN, distance - before, RAY_SHADOW,
-                           &tracer->stats, &hit)) {
+    while (world_nearest(world, &way->ray, way->near, distance - before, RAY_SHADOW, &tracer->stats,
+                         &hit)) {
         if (!surface_filter(way, &hit, color)) {
             *color = black;
             break;
         }
         distance -= hit.t;
         way->ray.org = hit.p;
+        way->near = world_near(world, &hit, way->ray.dir, SHADOW_T_MIN);
     }
     return distance;
 }
@@ -193,31 +199,33 @@ static double filter_by_objects(Tracer *tracer, Way *way, uint32_t light, double
     if (!find_projection(tracer, light, &way->ray, distance, &before))
         *color = (Rgb){0};
     else if (!way->light->shadowless)
-        return follow(tracer, way, distance, fmax(before, SHADE_SHADOW_TOL), color);
+        return follow(tracer, way, distance, fmax(before, shadow_tolerance(way->shading)), color);
     return distance;
 }
 
 static void fog_the_rest(const Way *way, double distance, Rgb *color) {
-    if (distance > SHADE_SHADOW_TOL)
+    if (distance > shadow_tolerance(way->shading))
         add_fog(way, distance, color);
 }
 
-void shadow_filter(Tracer *tracer, uint32_t light, Ray ray, double distance,
+void shadow_filter(Tracer *tracer, uint32_t light, const WorldHit *from, Vec3 dir, double distance,
                    const InteriorList *inside, Rgb *color) {
     Way way = {.shading = tracer->shading,
                .light = &tracer->shading->scene->lights[light],
-               .ray = ray,
+               .ray = {from->p, dir},
+               .near = world_near(tracer->shading->world, from, dir, SHADOW_T_MIN),
                .inside = inside,
                .crossed.count = 0};
     double left = filter_by_objects(tracer, &way, light, distance, color);
     fog_the_rest(&way, left, color);
 }
 
-double shadow_filter_point(Tracer *tracer, uint32_t light, Ray ray, double distance,
-                           const InteriorList *inside, Rgb *color) {
+double shadow_filter_point(Tracer *tracer, uint32_t light, const WorldHit *from, Vec3 dir,
+                           double distance, const InteriorList *inside, Rgb *color) {
     Way way = {.shading = tracer->shading,
                .light = &tracer->shading->scene->lights[light],
-               .ray = ray,
+               .ray = {from->p, dir},
+               .near = world_near(tracer->shading->world, from, dir, SHADOW_T_MIN),
                .inside = inside,
                .crossed.count = 0};
     return filter_by_objects(tracer, &way, light, distance, color);

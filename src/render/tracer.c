@@ -199,8 +199,9 @@ Color trace_path(Tracer *tracer, const Path *path, bool continued) {
         return (Color){0};
     WorldHit hit;
     PatchStats before = tracer->stats.patch;
-    bool met = world_intersect(shading->world, &path->ray, SHADE_MIN_DEPTH, INFINITY, path->kind,
-                               &tracer->stats, &hit);
+    WorldNear near = world_near(shading->world, path->from, path->ray.dir, SHADE_MIN_DEPTH);
+    bool met =
+        world_nearest(shading->world, &path->ray, near, INFINITY, path->kind, &tracer->stats, &hit);
     if (tracer->story)
         tell_hit(tracer, path, continued, met ? &hit : NULL, &before);
     if (!met)

@@ -5,8 +5,9 @@
 
 #include <assert.h>
 
-// POV-Ray's least depth of a patch.
+// POV-Ray's least depth of a patch made of triangles.
 static const double PATCH_NEAREST = 1e-5;
+
 // ---- points ---------------------------------------------------------------------------------
 
 // The leaves that contain a point.
@@ -66,7 +67,7 @@ bool world_inside(const World *world, uint32_t object, Vec3 p) {
 typedef struct {
     const World *world;
     const Ray *ray; // unit direction
-    double t_min;
+    double t_min, patch_min;
     uint32_t kind;
     bool any; // the first hit ends it
     RayStats *stats;
@@ -79,8 +80,8 @@ typedef struct {
     PatchHit patch;
 } RayQuery;
 
-static bool counts(const RayQuery *query, double t, const Leaf *leaf) {
-    return t >= query->t_min && (t < query->t || (t == query->t && leaf->rank < query->rank)) &&
+static bool counts(const RayQuery *query, double t, double t_min, const Leaf *leaf) {
+    return t >= t_min && (t < query->t || (t == query->t && leaf->rank < query->rank)) &&
            (!leaf->watched || csg_keeps(&query->world->csg, leaf->node,
                                         vec_madd(query->ray->org, t, query->ray->dir)));
 }
@@ -132,7 +133,7 @@ static void try_prim(RayQuery *query, const Prim *prim) {
     query->stats->shape_tests++;
     query->stats->shape_hits += count > 0;
     for (int i = count - 1; i >= 0; i--) {
-        if (!counts(query, hits[i].t, &prim->leaf))
+        if (!counts(query, hits[i].t, query->t_min, &prim->leaf))
             continue;
         keep(query, hits[i].t, &prim->leaf);
         query->prim = prim;
@@ -149,7 +150,7 @@ static double try_item(void *context, uint32_t place) {
 static void try_patch_hit(void *context, const PatchHit *hit) {
     RayQuery *query = context;
     const Leaf *leaf = &query->world->leaves[hit->id];
-    if (!counts(query, hit->t, leaf))
+    if (!counts(query, hit->t, query->patch_min, leaf))
         return;
     keep(query, hit->t, leaf);
     query->prim = NULL;
@@ -164,7 +165,7 @@ static double reach(const RayQuery *query) {
 static void try_patches(RayQuery *query) {
     const World *world = query->world;
     PatchStats *stats = &query->stats->patch;
-    double t_min = fmax(query->t_min, PATCH_NEAREST);
+    double t_min = query->patch_min;
     PatchHit hit;
     if (world->patches && patchset_intersect(world->patches, query->ray, t_min, reach(query),
                                              query->kind, stats, &hit))
@@ -200,6 +201,10 @@ static double unit_ray(const Ray *ray, Ray *unit) {
     return length;
 }
 
+static double patch_least(const World *world, double t) {
+    return world->exact ? t : fmax(t, PATCH_NEAREST);
+}
+
 static Vec2 patch_uv(const PatchShape *patch, double u, double v) {
     const double w[4] = {(1.0 - u) * (1.0 - v), (1.0 - u) * v, u * v, u * (1.0 - v)};
     Vec2 uv = {0, 0};
@@ -210,8 +215,34 @@ static Vec2 patch_uv(const PatchShape *patch, double u, double v) {
     return uv;
 }
 
+double world_unit(const World *world) { return world->unit; }
+
+WorldNear world_near(const World *world, const WorldHit *from, Vec3 dir, double least) {
+    least *= world->unit;
+    if (!world->exact)
+        return (WorldNear){least, fmax(least, PATCH_NEAREST)};
+    if (!from)
+        return (WorldNear){least, 0.0};
+    if (!(from->bound > 0.0))
+        return (WorldNear){least, least};
+    // The start is off the surface by the hit's bound and the rounding of org + t dir; the surface
+    // is found again with the same error. At a sine s to it that is a way of d / s; where the ray
+    // leaves at less than the angle at which a surface as curved as the whole set is wide departs
+    // by d, by that way.
+    double place = fabs(from->p.x) + fabs(from->p.y) + fabs(from->p.z) + from->t;
+    double d = 2.0 * from->bound + 16.0 * 0x1p-53 * place;
+    double sine = fabs(vec_dot(dir, from->normal)) / vec_length(dir);
+    double least_sine = sqrt(d / world->size);
+    return (WorldNear){least, 2.0 * d / fmax(sine, least_sine) / vec_length(dir)};
+}
+
 bool world_intersect(const World *world, const Ray *ray, double t_min, double t_max, RayKind kind,
                      RayStats *stats, WorldHit *hit) {
+    return world_nearest(world, ray, (WorldNear){t_min, t_min}, t_max, kind, stats, hit);
+}
+
+bool world_nearest(const World *world, const Ray *ray, WorldNear near, double t_max, RayKind kind,
+                   RayStats *stats, WorldHit *hit) {
     Ray unit;
     RayStats unused = {0};
     double length = unit_ray(ray, &unit);
@@ -219,7 +250,8 @@ bool world_intersect(const World *world, const Ray *ray, double t_min, double t_
         return false;
     RayQuery query = {.world = world,
                       .ray = &unit,
-                      .t_min = t_min * length,
+                      .t_min = near.shapes * length,
+                      .patch_min = patch_least(world, near.patches * length),
                       .kind = kind,
                       .stats = stats ? stats : &unused,
                       .t = t_max * length};
@@ -249,6 +281,11 @@ bool world_intersect(const World *world, const Ray *ray, double t_min, double t_
 
 bool world_occluded(const World *world, const Ray *ray, double t_min, double t_max,
                     RayStats *stats) {
+    return world_blocked(world, ray, (WorldNear){t_min, t_min}, t_max, stats);
+}
+
+bool world_blocked(const World *world, const Ray *ray, WorldNear near, double t_max,
+                   RayStats *stats) {
     Ray unit;
     RayStats unused = {0};
     double length = unit_ray(ray, &unit);
@@ -256,12 +293,13 @@ bool world_occluded(const World *world, const Ray *ray, double t_min, double t_m
         return false;
     RayQuery query = {.world = world,
                       .ray = &unit,
-                      .t_min = t_min * length,
+                      .t_min = near.shapes * length,
+                      .patch_min = patch_least(world, near.patches * length),
                       .kind = RAY_SHADOW,
                       .any = true,
                       .stats = stats ? stats : &unused,
                       .t = t_max * length};
-    double patch_min = fmax(query.t_min, PATCH_NEAREST);
+    double patch_min = query.patch_min;
     if (world->patches && patchset_occluded(world->patches, &unit, patch_min, query.t, RAY_SHADOW,
                                             &query.stats->patch))
         return true;

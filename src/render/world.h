@@ -40,12 +40,30 @@ typedef struct World World;
 World *world_create(const Scene *scene, const PatchSetOptions *patches);
 void world_destroy(World *world);
 
-// Nearest hit with t_min <= t < t_max that this kind of ray can see. Equal depths: the object that
+// From where on a ray meets things, in units of its t: primitives, patches.
+typedef struct {
+    double shapes, patches;
+} WorldNear;
+
+// For a ray along dir from a hit; NULL: from the camera. least: what POV-Ray ignores, in scene
+// units. Patches met by qi need no such constant: what lies nearer than the bounds of the two hits
+// allow is the surface that the ray leaves, and all else counts.
+WorldNear world_near(const World *world, const WorldHit *from, Vec3 dir, double least);
+// POV-Ray's least depths suit scenes of some units. In a scene whose patches are altogether smaller
+// than 1/20 (which POV-Ray does not render) they are taken in quarters of its diameter; else 1.
+double world_unit(const World *world);
+
+// Nearest hit with near <= t < t_max that this kind of ray can see. Equal depths: the object that
 // stands first in the source, infinite ones before all others. Each primitive also has its own
 // least depth (facts: rendering 0.2).
+bool world_nearest(const World *world, const Ray *ray, WorldNear near, double t_max, RayKind kind,
+                   RayStats *stats, WorldHit *hit);
+// The same with one t_min for all.
 bool world_intersect(const World *world, const Ray *ray, double t_min, double t_max, RayKind kind,
                      RayStats *stats, WorldHit *hit);
 // Is anything that throws a shadow between? Only right when all of that is opaque.
+bool world_blocked(const World *world, const Ray *ray, WorldNear near, double t_max,
+                   RayStats *stats);
 bool world_occluded(const World *world, const Ray *ray, double t_min, double t_max,
                     RayStats *stats);
 // Is the point inside the object (a root or a leaf)? Patches, triangles have no inside.

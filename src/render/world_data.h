@@ -37,6 +37,8 @@ struct World {
     uint32_t *boundless;
     uint32_t boundless_count;
     PatchSet *patches;  // that nothing hides; id: leaf position
+    bool exact;         // their hits carry bounds: not POV-Ray's triangles
+    double size, unit;  // diameter of all patches; see world_unit()
     PatchSet *filtered; // below a tree that may hide their hits
 };
 

@@ -161,6 +161,20 @@ static void add_patches(World *world, const PatchSetOptions *options) {
         patchset_commit(world->filtered);
 }
 
+// What least depths are measured by.
+static void measure_patches(World *world, PatchMethod method) {
+    Box box = box_empty();
+    if (world->patches)
+        box = box_union(box, patchset_bounds(world->patches));
+    if (world->filtered)
+        box = box_union(box, patchset_bounds(world->filtered));
+    bool any = box.low.x <= box.high.x;
+    world->size = any ? vec_length(vec_sub(box.high, box.low)) : 0.0;
+    world->exact = method != METHOD_FACETS && method != METHOD_TESSELLATION;
+    bool tiny = world->exact && world->size > 0.0 && world->size < 0.05;
+    world->unit = tiny ? 0.25 * world->size : 1.0;
+}
+
 static const Shape *shape_of(const World *world, uint32_t leaf) {
     uint32_t node = world->leaves[leaf].node;
     return node == NO_INDEX ? NULL : world->csg.nodes[node].shape;
@@ -218,6 +232,7 @@ World *world_create(const Scene *scene, const PatchSetOptions *patches) {
     rank_leaves(world, &maker, boxes);
     add_prims(world, boxes);
     add_patches(world, patches);
+    measure_patches(world, patches->method);
     array_free(&maker.leaves);
     array_free(&maker.frames);
     arena_destroy(scratch);

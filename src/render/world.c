@@ -106,7 +106,7 @@ static double try_solid_hit(void *context, const ShapeHit *hit) {
     bool again = query->prim == at->prim && query->leaf == &at->prim->leaf && hit->t == query->t;
     if (again) {
         query->hit = *hit;
-    } else if (counts(query, hit->t, &at->prim->leaf)) {
+    } else if (counts(query, hit->t, query->t_min, &at->prim->leaf)) {
         keep(query, hit->t, &at->prim->leaf);
         query->prim = at->prim;
         query->hit = *hit;

@@ -160,6 +160,8 @@ static void equal_to_povray(void **state) {
         {"Height=2\n[Part]\nInitial_Frame=98\nFinal_Frame=107\nHeight=4\nSubset_End_Frame=0.25\n"
          "+KI-3 +KF1e3 +SF99\n",
          "t[part]", 99, 99, 1, "s%03d.png"},
+        {"[Short]\nFinal_Frame=3\n[Long]\nFinal_Frame=10\nFinal_Clock=5\n", "t.ini[Long]", 1, 10,
+         10, "s%02d.png"},
     };
     char here[4096], folder[] = "/tmp/qipov-animation-XXXXXX";
     assert_non_null(getcwd(here, sizeof here));
@@ -209,6 +211,41 @@ static void equal_to_povray(void **state) {
     shell(arena_printf(arena, "rm -r %s", folder));
 }
 
+// A scene of the distribution that is meant to be an animation, and writes pages about itself: both
+// leave the same files with the same bytes.
+static void allobjects(void **state) {
+    Arena *arena = *state;
+    static const char from[] = "/usr/share/doc/povray/examples/portfolio/";
+    const char *own = "build/test/qirender";
+    if (!reference_available() || access(own, X_OK) != 0 || access(from, R_OK) != 0) {
+        print_message("skipped: povray, its examples or %s is missing\n", own);
+        skip();
+    }
+    char here[4096], folder[] = "/tmp/qipov-animation-XXXXXX";
+    assert_non_null(getcwd(here, sizeof here));
+    assert_non_null(mkdtemp(folder));
+    const char *programs[2] = {
+        "povray", arena_printf(arena, "%s/%s --allow-write . --method facets", here, own)};
+    for (int k = 0; k < 2; k++) {
+        const char *command = arena_printf(
+            arena,
+            "mkdir %s/%d && cd %s/%d && cp %sallobjects.pov %s*.inc . && "
+            "%s +Iallobjects.pov +KFF2 +SF1 +EF1 +W32 +H24 -D >../log.txt 2>&1 </dev/null",
+            folder, k, folder, k, from, from, programs[k]);
+        if (shell(command) != 0)
+            fail_msg("%s", command);
+    }
+    Image *a = image_read(arena, arena_printf(arena, "%s/0/allobjects1.png", folder));
+    Image *b = image_read(arena, arena_printf(arena, "%s/1/allobjects1.png", folder));
+    char where[160];
+    size_t different = reference_mismatches(a, b, where, sizeof where);
+    if (different)
+        fail_msg("%zu values differ, first %s", different, where);
+    assert_true(count_files(arena_printf(arena, "%s/1", folder)) > 7);
+    assert_int_equal(shell(arena_printf(arena, "diff -r -x '*.png' %s/0 %s/1", folder, folder)), 0);
+    assert_int_equal(shell(arena_printf(arena, "rm -r %s", folder)), 0);
+}
+
 static int create(void **state) {
     *state = arena_create();
     return 0;
@@ -223,10 +260,7 @@ static int destroy(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        TEST(frames),
-        TEST(single_pictures),
-        TEST(names),
-        TEST(equal_to_povray),
+        TEST(frames), TEST(single_pictures), TEST(names), TEST(equal_to_povray), TEST(allobjects),
     };
     return cmocka_run_group_tests_name("animation", tests, NULL, NULL);
 }

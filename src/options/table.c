@@ -250,8 +250,9 @@ static bool apply_version(Parse *parse, const OptionRow *row, bool on, const cha
 
 static bool apply_display(Parse *parse, const OptionRow *row, bool on, const char *value) {
     (void)row;
-    if (strlen(value) > 2)
-        return complain(parse, "after +D come at most two letters for the display");
+    if (strspn(value, "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789") !=
+        strlen(value))
+        return complain(parse, "after +D come letters for the display");
     parse->options->display = on;
     return true;
 }

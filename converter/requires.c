@@ -14,7 +14,7 @@ static const char *feature_of(Converter *cv, const char *text) {
     if (start && (!colon || start < colon))
         start++;
     else
-        start = text;
+        start = text + (strncmp(text, "the camera's ", 13) == 0 ? 13 : 0);
     return arena_printf(cv->arena, "%.*s", (int)strcspn(start, "' :,;"), start);
 }
 

@@ -168,6 +168,10 @@ demo: deps
 	@$(MAKE) --no-print-directory -j$$(nproc) all
 	@tests/demo.sh
 
+expressions: deps
+	@$(MAKE) --no-print-directory -j$$(nproc) build/test/test_expressions
+	@QIPOV_EXPRESSIONS=20000 ASAN_OPTIONS=detect_leaks=0 build/test/test_expressions
+
 clean:
 	rm -rf build
 
@@ -213,5 +217,5 @@ stress: deps
 	@$(MAKE) --no-print-directory -j$$(nproc) build/stress
 	@build/stress $(STRESS)
 
-.PHONY: sheet examples-pictures points install all deps test test-examples fuzz lint demo gallery bench bench-rays stress clean
+.PHONY: sheet examples-pictures points install all deps test test-examples fuzz lint demo gallery bench bench-rays stress clean expressions
 -include $(shell find build -name '*.d' 2>/dev/null)

@@ -53,7 +53,7 @@ static const char *one_string(Converter *cv) {
 
 // C's conversion to int, with the value that the hardware gives where C leaves it open.
 static double to_int(double v) {
-    return v > -2147483649.0 && v < 2147483648.0 ? trunc(v) : INT_MIN;
+    return v > -2147483649.0 && v < 2147483648.0 ? trunc(v) + 0.0 : INT_MIN; // never -0
 }
 
 // ---- floats -----------------------------------------------------------------------------------
@@ -135,7 +135,8 @@ static bool one_float_call(Converter *cv, const Token *name, double *out) {
         *out = sqrt(*out);
         return true;
     case KW_degrees:
-        *out = full_in_parentheses(cv, name->text) * (180.0 / M_PI);
+        *out =
+            full_in_parentheses(cv, name->text) / (M_PI / 180.0); // a division, as POV-Ray has it
         return true;
     case KW_radians:
         *out = full_in_parentheses(cv, name->text) * (M_PI / 180.0);

@@ -20,6 +20,7 @@ static const double EPS = 1e-10; // POV-Ray's near-zero
 static struct {
     uint16_t hash[2 * HASH_SIZE];
     double gradient[GRADIENT_SIZE];
+    double terms[GRADIENT_SIZE - 3][4]; // from each number on: half of it, and the next three
     uint16_t perlin_order[2 * PERLIN_SIZE + 2];
     Vec3 perlin_gradient[2 * PERLIN_SIZE + 2];
     double random[RANDOM_SIZE];
@@ -70,6 +71,11 @@ static void make_gradient(void) {
         char digits[32];
         snprintf(digits, sizeof digits, "%.6g", crc * 2.0 / 65535.0 - 1.0);
         table.gradient[i] = strtod(digits, NULL);
+    }
+    for (int i = 0; i < GRADIENT_SIZE - 3; i++) {
+        const double *g = &table.gradient[i];
+        const double terms[4] = {g[0] * 0.5, g[1], g[2], g[3]};
+        memcpy(table.terms[i], terms, sizeof terms);
     }
 }
 
@@ -150,58 +156,70 @@ static Axis axis_of(double x) {
     return (Axis){((uint32_t)t + 10000u) & (HASH_SIZE - 1), f, f - 1.0, 1.0 - s, s};
 }
 
-// One corner of the cell: where its gradient stands in the table, and its part in the sum.
-typedef struct {
-    const double *gradient;
-    double weight;
-    Vec3 d;
-} Corner;
+// Two corners of the cell at a time, those that differ in x only: SSE2 has two lanes on every
+// machine, and each lane rounds as a number alone does. Corner a + 2 b + 4 c is the one at a, b, c.
+typedef double Pair __attribute__((vector_size(16)));
 
-static Corner corner_of(const Axis axes[3], int a, int b, int c) {
-    const Axis *x = &axes[0], *y = &axes[1], *z = &axes[2];
-    uint32_t base = table.hash[x->cell + (uint32_t)a];
-    base = table.hash[base ^ (y->cell + (uint32_t)b)];
-    base = table.hash[base ^ (z->cell + (uint32_t)c)] & 255;
-    return (Corner){
-        table.gradient + base,
-        (a ? x->weight_far : x->weight_near) * (b ? y->weight_far : y->weight_near) *
-            (c ? z->weight_far : z->weight_near),
-        vec3(a ? x->far : x->near, b ? y->far : y->near, c ? z->far : z->near),
-    };
+typedef struct {
+    const double *gradient[8]; // the first of four numbers: a constant, and factors of x, y, z
+    Pair weight[4];
+    Pair x; // the distances from the two planes
+    double y[2], z[2];
+} Cell;
+
+static inline Cell cell_of(Vec3 p) {
+    const Axis x = axis_of(p.x), y = axis_of(p.y), z = axis_of(p.z);
+    const uint16_t *hash = table.hash;
+    Cell cell = {.x = {x.near, x.far}, .y = {y.near, y.far}, .z = {z.near, z.far}};
+    for (uint32_t a = 0; a < 2; a++) {
+        uint32_t i = hash[x.cell + a];
+        for (uint32_t b = 0; b < 2; b++) {
+            uint32_t j = hash[i ^ (y.cell + b)];
+            for (uint32_t c = 0; c < 2; c++)
+                cell.gradient[a + 2 * b + 4 * c] = table.terms[hash[j ^ (z.cell + c)] & 255];
+        }
+    }
+    const Pair wx = {x.weight_near, x.weight_far};
+    for (int b = 0; b < 2; b++) {
+        Pair wxy = wx * (b ? y.weight_far : y.weight_near);
+        cell.weight[b] = wxy * z.weight_near;
+        cell.weight[b + 2] = wxy * z.weight_far;
+    }
+    return cell;
 }
 
-static double corner_term(const Corner *corner, int component) {
-    const double *g = corner->gradient + 4 * component;
-    return corner->weight *
-           (g[0] * 0.5 + g[1] * corner->d.x + g[2] * corner->d.y + g[3] * corner->d.z);
+// What corners 2 pair and 2 pair + 1 add to that component (0..2).
+static inline Pair cell_terms(const Cell *cell, int pair, int component) {
+    const double *g = cell->gradient[2 * pair] + 16 * component;
+    const double *h = cell->gradient[2 * pair + 1] + 16 * component;
+    const Pair constant = {g[0], h[0]}, gx = {g[1], h[1]}, gy = {g[2], h[2]}, gz = {g[3], h[3]};
+    return cell->weight[pair] *
+           (constant + gx * cell->x + gy * cell->y[pair & 1] + gz * cell->z[pair >> 1]);
 }
 
 static double clamp01(double v) { return v < 0.0 ? 0.0 : v > 1.0 ? 1.0 : v; }
 
+// Scalar and vector noise add their corners in different orders.
 static double lattice_value(Vec3 p) {
-    // Scalar and vector noise add their corners in different orders.
-    static const unsigned char order[8][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0},
-                                              {0, 0, 1}, {1, 0, 1}, {0, 1, 1}, {1, 1, 1}};
-    const Axis axes[3] = {axis_of(p.x), axis_of(p.y), axis_of(p.z)};
+    const Cell cell = cell_of(p);
     double sum = 0.0;
-    for (int i = 0; i < 8; i++) {
-        Corner corner = corner_of(axes, order[i][0], order[i][1], order[i][2]);
-        sum += corner_term(&corner, 0);
+    for (int i = 0; i < 4; i++) {
+        Pair terms = cell_terms(&cell, i, 0);
+        sum += terms[0];
+        sum += terms[1];
     }
     return sum;
 }
 
+static inline double vector_component(const Cell *cell, int component) {
+    const Pair t0 = cell_terms(cell, 0, component), t1 = cell_terms(cell, 1, component),
+               t2 = cell_terms(cell, 2, component), t3 = cell_terms(cell, 3, component);
+    return 0.0 + t0[0] + t0[1] + t1[1] + t1[0] + t3[0] + t3[1] + t2[1] + t2[0];
+}
+
 Vec3 noise_vector(Vec3 p) {
-    static const unsigned char order[8][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},
-                                              {0, 1, 1}, {1, 1, 1}, {1, 0, 1}, {0, 0, 1}};
-    const Axis axes[3] = {axis_of(p.x), axis_of(p.y), axis_of(p.z)};
-    Vec3 sum = vec3(0.0, 0.0, 0.0);
-    for (int i = 0; i < 8; i++) {
-        Corner corner = corner_of(axes, order[i][0], order[i][1], order[i][2]);
-        sum = vec_add(
-            sum, vec3(corner_term(&corner, 0), corner_term(&corner, 1), corner_term(&corner, 2)));
-    }
-    return sum;
+    const Cell cell = cell_of(p);
+    return vec3(vector_component(&cell, 0), vector_component(&cell, 1), vector_component(&cell, 2));
 }
 
 // ---- Perlin's ---------------------------------------------------------------------------------

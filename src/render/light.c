@@ -54,22 +54,34 @@ static double fading(const Light *light, double distance) {
     return 2.0 / (1.0 + pow(distance / light->fade_distance, light->fade_power));
 }
 
-LightSample light_sample(const Shading *shading, uint32_t index, Vec3 p, Vec3 offset) {
-    const Light *light = &shading->scene->lights[index];
-    const LightAxis *axis = &shading->axes[index];
-    LightSample s = {.ready = true};
-    Vec3 center = vec_add(light->location, offset), towards = vec_sub(center, p);
-    s.distance = vec_length(towards);
-    if (!(s.distance > 0.0))
-        return s; // the surface goes through the light: there is no direction, so no light
-    s.dir = vec_scale(towards, 1.0 / s.distance);
+// dir and distance of s for a point p and a light at center; false: there is no direction.
+static bool aim(const Light *light, const LightAxis *axis, Vec3 p, Vec3 center, LightSample *s) {
+    Vec3 towards = vec_sub(center, p);
+    s->distance = vec_length(towards);
+    if (!(s->distance > 0.0))
+        return false;
+    s->dir = vec_scale(towards, 1.0 / s->distance);
     if (light->type == LIGHT_PARALLEL || light->type == LIGHT_CYLINDER || light->parallel) {
         // Each point of an area shines towards point_at.
         Vec3 back = light->has_area ? vec_normalize(vec_sub(center, light->point_at))
                                     : vec_neg(axis->travel);
-        s.distance *= vec_dot(back, s.dir);
-        s.dir = back;
+        s->distance *= vec_dot(back, s->dir);
+        s->dir = back;
     }
+    return true;
+}
+
+bool light_aim(const Shading *shading, uint32_t index, Vec3 p, Vec3 offset, LightSample *sample) {
+    const Light *light = &shading->scene->lights[index];
+    return aim(light, &shading->axes[index], p, vec_add(light->location, offset), sample);
+}
+
+LightSample light_sample(const Shading *shading, uint32_t index, Vec3 p, Vec3 offset) {
+    const Light *light = &shading->scene->lights[index];
+    const LightAxis *axis = &shading->axes[index];
+    LightSample s = {.ready = true};
+    if (!aim(light, axis, p, vec_add(light->location, offset), &s))
+        return s; // the surface goes through the light: no light arrives
     s.attenuation = fading(light, s.distance);
     if (light->type == LIGHT_SPOT)
         s.attenuation *= spot_attenuation(light, axis, s.dir, s.distance);

@@ -66,8 +66,10 @@ static Rgb grid_color(Grid *grid, int i, int j) {
     if (color->r != UNKNOWN)
         return *color;
     const WorldHit *hit = grid->surface->hit;
-    LightSample s = light_sample(tracer->shading, grid->index, hit->p, grid_offset(grid, i, j));
+    LightSample s;
     *color = grid->color;
+    if (!light_aim(tracer->shading, grid->index, hit->p, grid_offset(grid, i, j), &s))
+        return *color; // nothing can be between
     grid->fog_distance = shadow_filter_point(tracer, grid->index, hit, s.dir, s.distance,
                                              grid->surface->path->inside, color);
     return *color;
@@ -81,8 +83,10 @@ static bool uneven(Rgb a, Rgb b) {
 // itself by mistake. Only fog notices: it lies along the way that was looked at last.
 static void look_twice_as_far(Grid *grid) {
     const Shading *shading = grid->tracer->shading;
-    LightSample s = light_sample(shading, grid->index, grid->surface->hit->p,
-                                 shading->scene->lights[grid->index].location);
+    LightSample s;
+    if (!light_aim(shading, grid->index, grid->surface->hit->p,
+                   shading->scene->lights[grid->index].location, &s))
+        return;
     grid->fog_dir = s.dir;
     grid->fog_distance = s.distance;
 }

@@ -155,6 +155,8 @@ void lights_reset(Tracer *tracer); // a new hit is being shaded
 
 // What arrives of a light at p when nothing is between: from its location moved by offset.
 LightSample light_sample(const Shading *shading, uint32_t index, Vec3 p, Vec3 offset);
+// Only its direction and distance; false where they are the same point.
+bool light_aim(const Shading *shading, uint32_t index, Vec3 p, Vec3 offset, LightSample *sample);
 bool light_is_black(Rgb color);
 // One light, from one direction: what the finish makes of it.
 void light_shine(Tracer *tracer, const LitLayer *layer, bool shadowless, const LightSample *sample,

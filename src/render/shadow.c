@@ -99,6 +99,16 @@ typedef struct {
     Crossed crossed;
 } Way;
 
+// Member by member: an initializer would clear the list of bodies for every ray.
+static void way_begin(Way *way, const Shading *shading, uint32_t light, Ray ray,
+                      const InteriorList *inside) {
+    way->shading = shading;
+    way->light = &shading->scene->lights[light];
+    way->ray = ray;
+    way->inside = inside;
+    way->crossed.count = 0;
+}
+
 static bool is_inside(const Way *way, uint32_t body) {
     return interior_inside(way->inside, body) != has_crossed(&way->crossed, body);
 }
@@ -210,33 +220,24 @@ static void fog_the_rest(const Way *way, double distance, Rgb *color) {
 
 void shadow_filter(Tracer *tracer, uint32_t light, const WorldHit *from, Vec3 dir, double distance,
                    const InteriorList *inside, Rgb *color) {
-    Way way = {.shading = tracer->shading,
-               .light = &tracer->shading->scene->lights[light],
-               .ray = {from->p, dir},
-               .near = world_near(tracer->shading->world, from, dir, SHADOW_T_MIN),
-               .inside = inside,
-               .crossed.count = 0};
+    Way way;
+    way_begin(&way, tracer->shading, light, (Ray){from->p, dir}, inside);
+    way.near = world_near(tracer->shading->world, from, dir, SHADOW_T_MIN);
     double left = filter_by_objects(tracer, &way, light, distance, color);
     fog_the_rest(&way, left, color);
 }
 
 double shadow_filter_point(Tracer *tracer, uint32_t light, const WorldHit *from, Vec3 dir,
                            double distance, const InteriorList *inside, Rgb *color) {
-    Way way = {.shading = tracer->shading,
-               .light = &tracer->shading->scene->lights[light],
-               .ray = {from->p, dir},
-               .near = world_near(tracer->shading->world, from, dir, SHADOW_T_MIN),
-               .inside = inside,
-               .crossed.count = 0};
+    Way way;
+    way_begin(&way, tracer->shading, light, (Ray){from->p, dir}, inside);
+    way.near = world_near(tracer->shading->world, from, dir, SHADOW_T_MIN);
     return filter_by_objects(tracer, &way, light, distance, color);
 }
 
 void shadow_fog(const Shading *shading, uint32_t light, Ray ray, double distance,
                 const InteriorList *inside, Rgb *color) {
-    const Way way = {.shading = shading,
-                     .light = &shading->scene->lights[light],
-                     .ray = ray,
-                     .inside = inside,
-                     .crossed.count = 0};
+    Way way;
+    way_begin(&way, shading, light, ray, inside);
     fog_the_rest(&way, distance, color);
 }

@@ -5,7 +5,6 @@
 #include "noise/noise.h"
 
 #include <math.h>
-#include <stdlib.h>
 
 // A distance that grows with the real one and costs no root.
 static double measure(double metric, Vec3 d) {
@@ -48,6 +47,20 @@ Vec3 crackle_site(Vec3 p) {
     return vec3(x + noise_random(i), y + noise_random(i + 1), z + noise_random(i + 2));
 }
 
+// From the cell at hand outwards, so that most of the others are too far away from the start.
+static const int ORDER_OUT[5] = {0, -1, 1, -2, 2};
+
+// The least that measure() can give along one axis for sites of the five cells, in that order:
+// x is the cell's side, p the point. Rounding keeps order, so that no site comes out nearer.
+static void least_measures(double metric, double x, double p, double least[5]) {
+    for (int k = 0; k < 5; k++) {
+        int step = ORDER_OUT[k];
+        double d = step > 0 ? (x + step) - p : step < 0 ? p - (x + step + 1) : 0.0;
+        d = d > 0.0 ? d : 0.0;
+        least[k] = metric == 2.0 ? d * d : metric == 1.0 ? d : 0.0; // powers keep no order
+    }
+}
+
 static Nearest nearest_sites(double metric, Vec3 p) {
     // Cells so far away that they are no int share one; a step of 2 from them must still be one.
     const double far = 2147483640.0;
@@ -55,14 +68,22 @@ static Nearest nearest_sites(double metric, Vec3 p) {
     int y = (int)fmax(-far, fmin(far, floor(p.y - FORMULA_EPS)));
     int z = (int)fmax(-far, fmin(far, floor(p.z - FORMULA_EPS)));
     Nearest nearest = {{INFINITY, INFINITY, INFINITY}, {0, 0, 0}};
-    for (int a = -2; a <= 2; a++)
-        for (int b = -2; b <= 2; b++)
-            for (int c = -2; c <= 2; c++) {
-                if ((abs(a) == 2) + (abs(b) == 2) + (abs(c) == 2) > 1)
+    double least_x[5], least_y[5], least_z[5];
+    least_measures(metric, x, p.x, least_x);
+    least_measures(metric, y, p.y, least_y);
+    least_measures(metric, z, p.z, least_z);
+    for (int i = 0; i < 5; i++)
+        for (int j = 0; j < 5; j++) {
+            if ((i > 2) + (j > 2) > 1 || least_x[i] + least_y[j] > nearest.s[2])
+                continue;
+            for (int k = 0; k < 5; k++) {
+                if ((i > 2) + (j > 2) + (k > 2) > 1 ||
+                    least_x[i] + least_y[j] + least_z[k] > nearest.s[2])
                     continue;
-                Vec3 site = site_of(x + a, y + b, z + c);
+                Vec3 site = site_of(x + ORDER_OUT[i], y + ORDER_OUT[j], z + ORDER_OUT[k]);
                 keep(&nearest, measure(metric, vec_sub(site, p)), site);
             }
+        }
     return nearest;
 }
 

@@ -130,6 +130,8 @@ static void wrong_usage_is_refused(void **state) {
         {"trace --method=best a", "there is no method 'best'; the methods are qi qi-paper"},
         {"trace --tolerance 2 a", "the tolerance is a share"},
         {"trace --threads -1 a", "--threads takes a number"},
+        {"trace --isa mmx a", "--isa takes scalar, avx2 or avx512"},
+        {"trace --prepare all a", "the ways to prepare are full, light and none"},
         {"trace --quick a", "there is no option '--quick' here"},
         {"trace --rounds 3 a", "there is no option '--rounds' here"},
         {"speed --rounds 4", "--rounds takes an odd number"},
@@ -182,7 +184,7 @@ static void bowl_points(double height, double depth, Vec3 points[16]) {
 }
 
 // Three bowls above each other, random rays: nearest hits as the oracle has them, bounds true, any
-// length of direction, the same text for 1 and 3 threads.
+// length of direction, the same text for 1 and 3 threads and whatever instructions.
 static void answers_as_the_oracle(void **state) {
     (void)state;
     enum { BOWLS = 3, RAYS = 600 };
@@ -208,13 +210,14 @@ static void answers_as_the_oracle(void **state) {
     }
     fclose(out);
     const char *log;
-    assert_int_equal(run_command(&log,
-                                 "build/test/qibench trace '%s' --threads=1 >'%s.1' && "
-                                 "build/test/qibench trace --threads 3 '%s' >'%s.3' && "
-                                 "cmp '%s.1' '%s.3' && cat '%s.1'",
-                                 path_of("rays"), path_of("rays"), path_of("rays"), path_of("rays"),
-                                 path_of("rays"), path_of("rays"), path_of("rays")),
-                     0);
+    assert_int_equal(
+        run_command(&log,
+                    "build/test/qibench trace '%s' --threads=1 >'%s.1' && "
+                    "build/test/qibench trace --threads 3 --isa scalar '%s' >'%s.3' && "
+                    "cmp '%s.1' '%s.3' && cat '%s.1'",
+                    path_of("rays"), path_of("rays"), path_of("rays"), path_of("rays"),
+                    path_of("rays"), path_of("rays"), path_of("rays")),
+        0);
     static Answer answers[RAYS];
     assert_int_equal(read_answers(log, answers, RAYS), RAYS);
     int hits = 0;

@@ -58,8 +58,12 @@ static void measure(Entry *entry, View view, int round, const Ray *rays) {
 }
 
 static PatchSet *committed(const Vec3 *points, size_t patches, PatchMethod method,
-                           double tolerance) {
-    PatchSet *set = set_of_points(points, patches, method, tolerance);
+                           PatchPrepare prepare, double tolerance) {
+    PatchSetOptions options = patchset_options_default();
+    options.method = method;
+    options.prepare = prepare;
+    options.tolerance = tolerance;
+    PatchSet *set = set_of_points(points, patches, &options);
     patchset_commit(set);
     return set;
 }
@@ -133,7 +137,8 @@ void speed_methods(const SpeedOptions *o) {
             array_push(&entries, ((Entry){patch_method_name(methods[m]),
                                           tolerance,
                                           trace_set,
-                                          committed(points, TEAPOT_PATCHES, methods[m], tolerance),
+                                          committed(points, TEAPOT_PATCHES, methods[m],
+                                                    (PatchPrepare)o->prepare, tolerance),
                                           share,
                                           {{0}}}));
         }
@@ -147,6 +152,7 @@ void speed_methods(const SpeedOptions *o) {
                 measure(&entries.items[i], (View)view, round, rays);
         }
     }
+    printf("qi with the instructions %s.\n\n", patch_isa_name());
     printf("| nearest hits, million rays a second (share of Embree's single rays) | tolerance |");
     for (int view = 0; view < VIEW_COUNT; view++) {
         if (o->view < 0 || o->view == view)
@@ -176,10 +182,10 @@ typedef struct {
     double prepare, trace, megabytes;
 } Picture;
 
-static Picture qi_picture(const Vec3 *points, double error, const Ray *rays) {
+static Picture qi_picture(const Vec3 *points, PatchPrepare prepare, double error, const Ray *rays) {
     Picture p;
     double start = process_seconds();
-    PatchSet *set = committed(points, TEAPOT_PATCHES, METHOD_QI, error);
+    PatchSet *set = committed(points, TEAPOT_PATCHES, METHOD_QI, prepare, error);
     p.prepare = process_seconds() - start;
     start = process_seconds();
     trace_set(set, rays, VIEW_RAYS);
@@ -271,7 +277,7 @@ void speed_picture(const SpeedOptions *o) {
             cuts_for_error(points, errors[e], cuts);
 #endif
         for (int round = 0; round < o->rounds; round++) {
-            qi[round] = qi_picture(points, errors[e], rays);
+            qi[round] = qi_picture(points, (PatchPrepare)o->prepare, errors[e], rays);
 #if EMBREE_HEADERS
             // What takes longer than this once is not measured again.
             if (!embree_missing() && round > 0 && peer[0].prepare > 5.0)
@@ -316,9 +322,8 @@ void speed_lattices(const SpeedOptions *o) {
         Arena *arena = arena_create();
         const Vec3 *points = lattice_points(arena, sizes[i]);
         const Ray *rays = view_rays(arena, VIEW_SCATTERED, points_bounds(points, 16 * sizes[i]));
-        PatchSet *set = set_of_points(points, sizes[i], METHOD_QI, 1e-9);
         double start = process_seconds(), clock = progress_seconds();
-        patchset_commit(set);
+        PatchSet *set = committed(points, sizes[i], METHOD_QI, (PatchPrepare)o->prepare, 1e-9);
         double prepare = process_seconds() - start;
         clock = progress_seconds() - clock;
         double used[MAX_ROUNDS];
@@ -340,7 +345,7 @@ void speed_threads(const SpeedOptions *o) {
     Arena *arena = arena_create();
     const Vec3 *points = teapot_points(arena);
     const Ray *rays = view_rays(arena, VIEW_ZOOM, points_bounds(points, 16));
-    PatchSet *set = committed(points, TEAPOT_PATCHES, METHOD_QI, 1e-9);
+    PatchSet *set = committed(points, TEAPOT_PATCHES, METHOD_QI, (PatchPrepare)o->prepare, 1e-9);
     double used[2][MAX_ROUNDS];
     for (int round = 0; round < o->rounds; round++) {
         for (int threads = 1; threads <= 2; threads++) {

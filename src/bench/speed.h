@@ -14,6 +14,7 @@ typedef struct {
     int method;         // a PatchMethod, or -1: all
     double tolerance;   // or 0: 1e-3, 1e-6, 1e-9, 1e-12
     size_t max_patches; // of the lattices
+    int prepare;        // a PatchPrepare: of qi
 } SpeedOptions;
 
 SpeedOptions speed_options_default(void);

@@ -63,11 +63,8 @@ Box points_bounds(const Vec3 *points, size_t count) {
     return box;
 }
 
-PatchSet *set_of_points(const Vec3 *points, size_t patches, PatchMethod method, double tolerance) {
-    PatchSetOptions options = patchset_options_default();
-    options.method = method;
-    options.tolerance = tolerance;
-    PatchSet *set = patchset_create(&options);
+PatchSet *set_of_points(const Vec3 *points, size_t patches, const PatchSetOptions *options) {
+    PatchSet *set = patchset_create(options);
     for (size_t i = 0; i < patches; i++) {
         PatchDef def = {.degree_u = 3,
                         .degree_v = 3,

@@ -27,7 +27,7 @@ const Vec3 *lattice_points(Arena *arena, size_t patches);
 Box points_bounds(const Vec3 *points, size_t count);
 
 // The set of bicubic patches, not yet committed.
-PatchSet *set_of_points(const Vec3 *points, size_t patches, PatchMethod method, double tolerance);
+PatchSet *set_of_points(const Vec3 *points, size_t patches, const PatchSetOptions *options);
 
 // ORDER view (names in views.c). full and zoom: 1024 x 1024 cameras at (0,-10,1.5) along y, windows
 // on y = 0; full x +-3.6, z -2.1 to 5.1 (22.6 % hit), zoom x +-1.35, z 0.15 to 2.2 (all hit).

@@ -29,6 +29,7 @@ static const char usage[] =
     "  --method name       qi (default), or another one of the list that a wrong name shows\n"
     "  --tolerance x       hits lie within x times the patch's diameter of the patch (1e-9)\n"
     "  --isa name          scalar, avx2 or avx512 for qi: the best there is, unless given\n"
+    "  --prepare how       sub-patches for qi: full (default), light (few), none (the paper's)\n"
     "  --threads n         0 (default): as many as there are cores\n"
     "  --rounds n          speed: the median of n rounds, odd (5)\n"
     "  --share x           speed methods: this share of the rays (1)\n"
@@ -78,6 +79,15 @@ static bool apply_tolerance(Options *o, const char *value) {
         return true;
     complain("the tolerance is a share of the patch's diameter, 1e-15 to 1, not '%s'", value);
     return false;
+}
+
+static bool apply_prepare(Options *o, const char *value) {
+    if (!patch_prepare_parse(value, &o->set.prepare)) {
+        complain("the ways to prepare are full, light and none, not '%s'", value);
+        return false;
+    }
+    o->speed.prepare = (int)o->set.prepare;
+    return true;
 }
 
 static bool whole_number(const char *value, long least, long most, long *number) {
@@ -150,10 +160,11 @@ static bool apply_option(Options *o, const char *word, const char *value) {
         const char *name;
         unsigned commands; // 1 << Command
         bool (*apply)(Options *o, const char *value);
-    } rows[] = {{"--method", 3, apply_method}, {"--tolerance", 3, apply_tolerance},
-                {"--isa", 3, apply_isa},       {"--threads", 1, apply_threads},
-                {"--rounds", 2, apply_rounds}, {"--share", 2, apply_share},
-                {"--view", 2, apply_view},     {"--patches", 2, apply_patches}};
+    } rows[] = {{"--method", 3, apply_method},   {"--tolerance", 3, apply_tolerance},
+                {"--isa", 3, apply_isa},         {"--prepare", 3, apply_prepare},
+                {"--threads", 1, apply_threads}, {"--rounds", 2, apply_rounds},
+                {"--share", 2, apply_share},     {"--view", 2, apply_view},
+                {"--patches", 2, apply_patches}};
     size_t length = strcspn(word, "=");
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         if (strlen(rows[i].name) != length || strncmp(word, rows[i].name, length) != 0)
@@ -200,8 +211,7 @@ static int trace(const Options *o) {
     RayFile *file = ray_file_open(arena, o->words[0]);
     int threads = o->threads > 0 ? o->threads : omp_get_num_procs();
     omp_set_num_threads(threads);
-    PatchSet *set = set_of_points(ray_file_points(file), ray_file_patch_count(file), o->set.method,
-                                  o->set.tolerance);
+    PatchSet *set = set_of_points(ray_file_points(file), ray_file_patch_count(file), &o->set);
     patchset_commit(set);
     trace_rays(file, set, threads, stdout);
     patchset_destroy(set);

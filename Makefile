@@ -160,6 +160,11 @@ fuzz: deps
 	@tests/fuzz.sh scene 3000
 	@tests/fuzz.sh json 600
 
+# Every primitive in every variant against POV-Ray, as a table (about five minutes).
+solids: deps
+	@$(MAKE) --no-print-directory -j$$(nproc) build/test/test_solids_povray
+	@QIPOV_SOLIDS=full build/test/test_solids_povray
+
 lint:
 	@tests/deps.sh $(LINT_PACKAGES)
 	@tests/lint.sh
@@ -217,5 +222,5 @@ stress: deps
 	@$(MAKE) --no-print-directory -j$$(nproc) build/stress
 	@build/stress $(STRESS)
 
-.PHONY: sheet examples-pictures points install all deps test test-examples fuzz lint demo gallery bench bench-rays stress clean expressions
+.PHONY: sheet examples-pictures points install all deps test solids test-examples fuzz lint demo gallery bench bench-rays stress clean expressions
 -include $(shell find build -name '*.d' 2>/dev/null)

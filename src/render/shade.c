@@ -9,11 +9,6 @@
 
 #include <math.h>
 
-uint32_t surface_texture(const Object *object, double normal_dot_dir) {
-    bool inside = normal_dot_dir > 0.0 && object->interior_texture != NO_INDEX;
-    return inside ? object->interior_texture : object->texture;
-}
-
 // What the layers leave for the rest of the hit.
 typedef struct {
     Rgb color;   // their own light
@@ -180,12 +175,30 @@ static Color shade_texture(Tracer *tracer, const Surface *surface, uint32_t inde
     return texture_mix(choice.share, first, second);
 }
 
+// Parts of an object side by side in one hit; what weighs next to nothing is left out.
+static Color shade_textures(Tracer *tracer, const Surface *surface, const ShapeTexture *textures,
+                            uint32_t count, Vec3 p) {
+    if (count == 1)
+        return shade_texture(tracer, surface, textures[0].texture, p);
+    Color sum = {0};
+    for (uint32_t i = 0; i < count; i++) {
+        float w = textures[i].weight;
+        if (textures[i].texture == NO_INDEX || w < tracer->shading->scene->settings.adc_bailout)
+            continue;
+        Color c = shade_texture(tracer, surface, textures[i].texture, p);
+        sum.r += w * c.r, sum.g += w * c.g, sum.b += w * c.b;
+        sum.filter += w * c.filter, sum.transmit += w * c.transmit;
+    }
+    return sum;
+}
+
 Color shade_hit(Tracer *tracer, const Path *path, const WorldHit *hit) {
     const Shading *shading = tracer->shading;
     const Object *object = &shading->scene->objects[hit->object];
     double cosine = vec_dot(hit->normal, path->ray.dir);
-    uint32_t texture = surface_texture(object, cosine);
-    if (texture == NO_INDEX)
+    ShapeTexture textures[SHAPE_MAX_TEXTURES];
+    uint32_t count = surface_textures(object, hit, cosine, textures);
+    if (count == 1 && textures[0].texture == NO_INDEX)
         return (Color){0}; // the built-in texture is black and opaque under any light
     Vec3 normal = cosine > 0.0 ? vec_neg(hit->normal) : hit->normal;
     TextureHit at = {hit->p, path->ray.dir, hit->u, hit->v, normal, shading->quality.quick_color};
@@ -201,6 +214,6 @@ Color shade_hit(Tracer *tracer, const Path *path, const WorldHit *hit) {
         .at = &at,
         .spaces = &spaces,
     };
-    return shade_texture(tracer, &surface, texture,
-                         object->uv_mapping ? vec3(hit->u, hit->v, 0.0) : hit->p);
+    return shade_textures(tracer, &surface, textures, count,
+                          object->uv_mapping ? vec3(hit->u, hit->v, 0.0) : hit->p);
 }

@@ -146,8 +146,11 @@ double tracer_random(uint32_t *state);
 
 // shade.c
 Color shade_hit(Tracer *tracer, const Path *path, const WorldHit *hit);
-// The texture on that side of the object where dot(normal, dir) says the ray comes from.
-uint32_t surface_texture(const Object *object, double normal_dot_dir);
+// hit_texture.c
+// The textures of the hit on that side and their weights, 1 to SHAPE_MAX_TEXTURES of them.
+uint32_t surface_textures(const Object *object, const WorldHit *hit, double normal_dot_dir,
+                          ShapeTexture out[SHAPE_MAX_TEXTURES]);
+bool surface_is_opaque(const Textures *textures, const Object *object); // on both sides, everywhere
 
 // light.c: adds what the lights give to a layer.
 void lights_add(Tracer *tracer, const LitLayer *layer, Rgb *color);

@@ -132,6 +132,24 @@ static void add_fog(const Way *way, double depth, Rgb *color) {
         *color = fog_dim(shading, &way->ray, depth, *color);
 }
 
+// The same for the parts of an object that share the hit.
+static Color textures_filter(const Filter *f, const ShapeTexture *textures, uint32_t count,
+                             Vec3 p) {
+    if (count == 1)
+        return texture_filter(f, textures[0].texture, p);
+    Color sum = {0};
+    for (uint32_t i = 0; i < count; i++) {
+        if (textures[i].texture == NO_INDEX)
+            continue;
+        Rgb through = color_through(texture_filter(f, textures[i].texture, p));
+        sum.r += textures[i].weight * through.r;
+        sum.g += textures[i].weight * through.g;
+        sum.b += textures[i].weight * through.b;
+    }
+    sum.filter = 1.0f;
+    return sum;
+}
+
 // What the surface at hit lets through; false when nothing.
 static bool surface_filter(Way *way, const WorldHit *hit, Rgb *color) {
     const Shading *shading = way->shading;
@@ -141,8 +159,9 @@ static bool surface_filter(Way *way, const WorldHit *hit, Rgb *color) {
         return false;
     const Object *object = &shading->scene->objects[hit->object];
     double cosine = vec_dot(hit->normal, ray->dir);
-    uint32_t index = surface_texture(object, cosine);
-    if (index == NO_INDEX)
+    ShapeTexture textures[SHAPE_MAX_TEXTURES];
+    uint32_t count = surface_textures(object, hit, cosine, textures);
+    if (count == 1 && textures[0].texture == NO_INDEX)
         return false;
 
     const Interior *interior = body_interior(shading->scene, info->body);
@@ -153,7 +172,7 @@ static bool surface_filter(Way *way, const WorldHit *hit, Rgb *color) {
     Filter f = {shading, ray->dir, normal, interior != NULL ? interior->caustics : 0.0f,
                 &at,     &spaces};
     Vec3 p = object->uv_mapping ? vec3(hit->u, hit->v, 0.0) : hit->p;
-    Rgb through = color_through(texture_filter(&f, index, p));
+    Rgb through = color_through(textures_filter(&f, textures, count, p));
     bool fades = interior != NULL && interior->fade_power > 0.0f;
     if (fades && is_inside(way, info->body))
         through = rgb_mul(through, refract_fade(interior, hit->t));

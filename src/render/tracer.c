@@ -36,9 +36,7 @@ static void prepare_objects(Shading *shading) {
         const Object *object = &scene->objects[i];
         ObjectInfo *info = &shading->objects[i];
         info->body = body_of(scene, i);
-        info->opaque = texture_is_opaque(shading->textures, object->texture) &&
-                       (object->interior_texture == NO_INDEX ||
-                        texture_is_opaque(shading->textures, object->interior_texture));
+        info->opaque = surface_is_opaque(shading->textures, object);
         shading->groups |= object->no_global_lights;
         if (!object_is_tree(object) && !object->no_shadow && !info->opaque)
             shading->all_opaque = false;

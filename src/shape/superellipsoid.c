@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Superellipsoids: (|x|^(2/e) + |y|^(2/e))^(e/n) + |z|^(2/n) = 1 within the unit cube. With e and n
-// up to 2 the left side is a power of a norm, so that its level is convex: the ray's least value is
-// found by narrowing, and each crossing lies on one side of it. Else the ray is cut where it passes
-// the planes of symmetry, and each smooth piece is searched in steps.
+// up to 2 the left side is a power of a norm, which is convex along the ray. Else the ray is cut
+// where it passes the planes of symmetry, and each smooth piece is searched in steps.
 #include "shape/solid.h"
 
 #include <stdlib.h>
@@ -76,17 +75,44 @@ static void put_crossing(const Super *s, const Ray *ray, double low, double at_l
         sink_put(sink, crossing(s, ray, low, at_low, high, at_high), 0, vec3(0, 0, 0));
 }
 
-static void hits_convex(const Super *s, const Ray *ray, double low, double high, HitSink *sink) {
-    double at_low = value_on(s, ray, low), at_high = value_on(s, ray, high);
-    double middle = low, at_middle = at_low;
-    if (at_low >= 0.0 && at_high >= 0.0) {
-        middle = valley(s, ray, low, high, 1.0);
-        at_middle = value_on(s, ray, middle);
-    } else if (at_high < at_low) {
-        middle = high, at_middle = at_high;
+// The norm less 1 along the ray, and its slope.
+static double norm_on(const Super *s, const Ray *ray, double t, double *slope_out) {
+    Vec3 p = vec_madd(ray->org, t, ray->dir), d = ray->dir;
+    double x = pow(fabs(p.x), s->inner), y = pow(fabs(p.y), s->inner), z = pow(fabs(p.z), s->z);
+    double xy = x + y, level = pow(xy, s->outer), sum = level + z, norm = pow(sum, 1.0 / s->z);
+    double flat = (p.x != 0.0 ? x / p.x * d.x : 0.0) + (p.y != 0.0 ? y / p.y * d.y : 0.0);
+    double rise = (xy > 0.0 ? s->outer * level / xy * s->inner * flat : 0.0) +
+                  (p.z != 0.0 ? s->z * z / p.z * d.z : 0.0);
+    *slope_out = sum > 0.0 ? norm / (s->z * sum) * rise : 0.0;
+    return norm - 1.0;
+}
+
+// A norm is convex along a line: Newton's steps from outside go down to the nearest crossing and
+// never beyond. forward: from the left. False: there is none.
+static bool walk_in(const Super *s, const Ray *ray, double t, bool forward, double *out) {
+    for (int step = 0; step < 100; step++) {
+        double down, at = norm_on(s, ray, t, &down);
+        *out = t;
+        if (at <= 0.0)
+            return true;
+        if (!(forward ? down < 0.0 : down > 0.0))
+            return false;
+        double next = t - at / down;
+        if (!(forward ? next > t : next < t) || fabs(next - t) <= 1e-15 * fabs(next))
+            return true;
+        t = next;
     }
-    put_crossing(s, ray, low, at_low, middle, at_middle, sink);
-    put_crossing(s, ray, middle, at_middle, high, at_high, sink);
+    return true;
+}
+
+static void hits_convex(const Super *s, const Ray *ray, double low, double high, HitSink *sink) {
+    double enter, leave;
+    if (!walk_in(s, ray, low, true, &enter) || !walk_in(s, ray, high, false, &leave))
+        return;
+    if (enter > low)
+        sink_put(sink, enter, 0, vec3(0, 0, 0));
+    if (leave < high && leave > enter)
+        sink_put(sink, leave, 0, vec3(0, 0, 0));
 }
 
 enum { STEPS = 12 };

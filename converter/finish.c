@@ -160,7 +160,7 @@ static bool parse_item(Converter *cv, FinishNode *node, Albedo *albedo) {
         return true;
     case KW_conserve_energy:
         next_token(cv);
-        finish->conserve_energy = parse_optional_bool(cv);
+        finish->conserve_energy = true;
         return true;
     case KW_reflection:
         next_token(cv);

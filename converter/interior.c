@@ -74,10 +74,17 @@ const InteriorNode *parse_interior_block(Converter *cv, const InteriorNode *base
 // scattering { F C3 { eccentricity F | extinction F }* }
 static void parse_scattering(Converter *cv) {
     expect(cv, '{', "scattering");
-    parse_float(cv);
+    double type = parse_float(cv);
     optional_comma(cv);
     parse_color3(cv);
-    while (accept(cv, KW_eccentricity) || accept(cv, KW_extinction)) {
+    for (;;) {
+        const Token *token = peek_token(cv);
+        if (!accept(cv, KW_eccentricity) && !accept(cv, KW_extinction))
+            break;
+        if (token->code == KW_eccentricity && type < 5) {
+            Loc loc = token_loc(cv, token);
+            die_at(&loc, "Eccentricity cannot be used with this scattering type: only with 5");
+        }
         optional_comma(cv);
         parse_float(cv);
     }
@@ -87,8 +94,14 @@ static void parse_scattering(Converter *cv) {
 static bool parse_media_item(Converter *cv) {
     Move move;
     switch (peek_token(cv)->code) {
-    case KW_intervals:
     case KW_method:
+        next_token(cv);
+        number_within(cv, "sample method", 1, 3);
+        return true;
+    case KW_intervals:
+        next_token(cv);
+        number_within(cv, "number of intervals", 1, 1e9);
+        return true;
     case KW_jitter:
     case KW_aa_threshold:
     case KW_aa_level:
@@ -100,7 +113,7 @@ static bool parse_media_item(Converter *cv) {
         return true;
     case KW_samples:
         next_token(cv);
-        parse_float(cv);
+        number_within(cv, "number of samples", 1, 1e9);
         optional_comma(cv);
         if (starts_expression(cv))
             parse_float(cv);

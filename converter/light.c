@@ -237,6 +237,12 @@ void parse_light_items(Converter *cv, ObjectNode *object) {
                  !parse_rest(cv, object->light, token) && !parse_photons_modifier(cv))
             break;
     }
+    const AreaLight *area = &object->light->light.area;
+    if (area->circular &&
+        (!object->light->light.has_area || area->size[0] < 2 || area->size[1] < 2)) {
+        Loc loc = here(cv);
+        die_at(&loc, "Circular area light must have more than 1 point per axis");
+    }
     if (object->light->looks_like)
         object_put_below(cv, object, object->light->looks_like);
 }

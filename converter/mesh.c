@@ -99,7 +99,12 @@ static const TextureNode *accept_texture(Converter *cv) {
 // texture { ID } | texture_list { ID ID ID }
 static void parse_face_textures(Converter *cv, MeshReader *r, MeshFace *face) {
     if (accept(cv, KW_texture)) {
-        face->texture[0] = put_texture(r, parse_texture_block(cv));
+        expect(cv, '{', "texture");
+        const Value *value = accept_value(cv, VALUE_TEXTURE);
+        if (!value)
+            die_expected(cv, "'texture identifier' (a triangle's texture is a declared one)");
+        face->texture[0] = put_texture(r, value->node);
+        expect(cv, '}', "texture");
         return;
     }
     if (!accept(cv, KW_texture_list))
@@ -152,6 +157,8 @@ void parse_mesh(Converter *cv, ObjectNode *object) {
         else
             break;
     }
+    if (!r.faces.count)
+        die_expected(cv, "'triangle' (No triangles in triangle mesh)");
     keep_mesh(cv, &r, object);
 }
 
@@ -206,13 +213,14 @@ static void read_indices(Converter *cv, uint32_t out[3], size_t count, const cha
     optional_comma(cv);
 }
 
-// { n, { V [F [F F]] }* }
+// { n, { V [F [F F]] }* }. Without a texture_list a number that begins is the next vector's.
 static void parse_faces(Converter *cv, MeshReader *r) {
     uint32_t count = begin_list(cv, "face_indices");
     for (uint32_t i = 0; i < count; i++) {
         MeshFace face = empty_face();
         read_indices(cv, face.p, r->points.count / 3, "point");
-        for (int k = 0; k < 3 && !next_is(cv, '<') && starts_expression(cv); k++) {
+        for (int k = 0; k < 3 && r->textures.count && !next_is(cv, '<') && starts_expression(cv);
+             k++) {
             const Token *token = peek_token(cv);
             face.texture[k] = check_index(cv, token, parse_float(cv), r->textures.count, "texture");
             optional_comma(cv);

@@ -28,8 +28,16 @@ static bool parse_flag(Converter *cv, ObjectNode *node, int code) {
         object->double_illuminate = parse_optional_bool(cv);
         node->double_set = true;
         return true;
+    case KW_hierarchy: {
+        Loc loc = here(cv);
+        if (node->keyword != KW_blob && node->keyword != KW_mesh && node->keyword != KW_mesh2 &&
+            node->keyword != KW_height_field)
+            die_at(&loc, "Keyword 'hierarchy' cannot be used with this object");
+        next_token(cv);
+        parse_optional_bool(cv);
+        return true;
+    }
     case KW_no_radiosity:
-    case KW_hierarchy:
         next_token(cv);
         parse_optional_bool(cv);
         return true;
@@ -64,7 +72,7 @@ static bool parse_rare_flag(Converter *cv, ObjectNode *node, const Token *token)
             node->object.shape.poly.sturm = true;
         return true;
     case KW_split_union:
-        if (node->keyword != KW_union && node->keyword != KW_composite)
+        if (node->keyword != KW_union && node->keyword != KW_composite && node->keyword != KW_merge)
             die_misplaced(cv, token, "'split_union' can only be used in a union");
         next_token(cv);
         parse_float(cv);
@@ -240,14 +248,16 @@ static bool parse_object_modifier(Converter *cv, ObjectNode *node) {
         object_move(cv, node, &move);
         return true;
     }
+    if (node->keyword == KW_light_group) {
+        if (!accept(cv, KW_global_lights))
+            return parse_photons_modifier(cv);
+        node->global_lights = parse_optional_bool(cv);
+        return true;
+    }
     if (parse_surface(cv, node) || parse_flag(cv, node, token->code) ||
         parse_rare_flag(cv, node, token) || parse_photons_modifier(cv) ||
         parse_radiosity_modifier(cv) || parse_bound(cv, node))
         return true;
-    if (node->keyword == KW_light_group && accept(cv, KW_global_lights)) {
-        node->global_lights = parse_optional_bool(cv);
-        return true;
-    }
     if (starts_color(cv)) {
         Loc loc = token_loc(cv, token);
         parse_color(cv);

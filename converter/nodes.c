@@ -13,6 +13,15 @@ void note_gap(Converter *cv, const Gap **list, const Token *token, const char *t
     *list = gap;
 }
 
+double number_within(Converter *cv, const char *what, double low, double high) {
+    Loc loc = here(cv);
+    double value = parse_float(cv);
+    if (!(value >= low && value < high + 1))
+        die_at(&loc, "The %s must be in the range from %g to %g, %g is not", what, low, high,
+               value);
+    return value;
+}
+
 void nodes_begin(Converter *cv) {
     Nodes *nodes = ARENA_NEW(cv->arena, Nodes);
     PatternNode *pigment = ARENA_NEW(cv->arena, PatternNode);

@@ -24,6 +24,9 @@ const Loc *keep_place(Converter *cv, const Token *token);
 // quotes or as its first word, and behind a ':' what the picture lacks.
 void note_gap(Converter *cv, const Gap **list, const Token *token, const char *text);
 
+// F, which must lie from low to high (in whole numbers: up to anything below high + 1).
+double number_within(Converter *cv, const char *what, double low, double high);
+
 // ---- transforms: transform.c -------------------------------------------------------------------
 
 // ORDER move: how a shape takes a transform depends on how it was written.
@@ -114,6 +117,9 @@ void parse_warp(Converter *cv, PatternNode *pattern); // the block behind the ke
 // The contents of a block: [pattern] modifiers, on top of what *pattern holds. Identifiers are the
 // caller's. `texture_map` and its like are read by the functions of texture.c.
 void parse_pattern(Converter *cv, PatternUse use, PatternNode *pattern);
+// pattern_fit.c: dies if the next token is a modifier that this pattern does not take.
+void check_modifier_fits(Converter *cv, const PatternInfo *info);
+void parse_pavement_number(Converter *cv, int keyword); // behind number_of_sides and its kin
 // Reads the arguments that stand right behind the pattern's keyword (and list items).
 void parse_pattern_arguments(Converter *cv, PatternUse use, PatternNode *pattern);
 // The keyword of a map (color_map ...) at the cursor: its kind; false: there is none.

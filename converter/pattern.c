@@ -281,7 +281,7 @@ static bool parse_number_modifier(Converter *cv, PatternNode *pattern, int code)
     case KW_number_of_tiles:
     case KW_pattern:
         next_token(cv);
-        parse_float(cv);
+        parse_pavement_number(cv, code);
         return true;
     case KW_interior:
     case KW_exterior:
@@ -358,6 +358,7 @@ static bool parse_modifier(Converter *cv, PatternUse use, PatternNode *pattern) 
     default:
         break;
     }
+    check_modifier_fits(cv, pattern->info);
     if (parse_wave(cv, pattern, code) || parse_map_modifier(cv, use, pattern) ||
         parse_turbulence(cv, pattern) || parse_shape_modifier(cv, pattern, code) ||
         parse_number_modifier(cv, pattern, code))

@@ -209,7 +209,7 @@ static void parse_number_pattern(Converter *cv, PatternNode *pattern) {
         parse_arms(cv, pattern);
         break;
     case KW_tiling:
-        parse_float(cv);
+        number_within(cv, "tiling number", 1, 27);
         break;
     default:
         break;

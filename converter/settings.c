@@ -60,12 +60,51 @@ static void parse_two_floats(Converter *cv) {
         parse_float(cv);
 }
 
+// What is wrong with a number of radiosity{}, or NULL.
+static const char *radiosity_fault(int keyword, double value) {
+    bool positive = value > 0;
+    switch (keyword) {
+    case KW_nearest_count:
+        return value >= 1 && value < 21 ? NULL : "nearest_count must be a value from 1 to 20";
+    case KW_recursion_limit:
+        return value >= 1 && value < 21 ? NULL : "recursion_limit must be in the range 1 to 20";
+    case KW_pretrace_start:
+    case KW_pretrace_end:
+        return positive && value <= 1 ? NULL
+                                      : "pretrace must be greater than 0 and no higher than 1";
+    case KW_count:
+        return value >= 0 ? NULL : "count must be a positive number";
+    case KW_gray_threshold:
+        return value >= 0 && value <= 1 ? NULL : "gray_threshold must be from 0.0 to 1.0";
+    case KW_minimum_reuse:
+    case KW_maximum_reuse:
+        return value >= 0 ? NULL : "reuse can not be a negative number";
+    case KW_error_bound:
+    case KW_low_error_factor:
+    case KW_brightness:
+        return positive ? NULL : "numbers of this kind must be positive";
+    default:
+        return NULL;
+    }
+}
+
+static void parse_radiosity_number(Converter *cv, int keyword) {
+    Loc loc = here(cv);
+    const char *fault = radiosity_fault(keyword, parse_float(cv));
+    if (fault)
+        die_at(&loc, "Radiosity %s", fault);
+}
+
 static bool parse_radiosity_item(Converter *cv) {
-    switch (peek_token(cv)->code) {
+    int code = peek_token(cv)->code;
+    switch (code) {
     case KW_count:
     case KW_nearest_count:
         next_token(cv);
-        parse_two_floats(cv);
+        parse_radiosity_number(cv, code);
+        optional_comma(cv);
+        if (starts_expression(cv))
+            parse_float(cv);
         return true;
     case KW_always_sample:
     case KW_media:
@@ -91,7 +130,7 @@ static bool parse_radiosity_item(Converter *cv) {
     case KW_pretrace_end:
     case KW_recursion_limit:
         next_token(cv);
-        parse_float(cv);
+        parse_radiosity_number(cv, code);
         return true;
     default:
         return false;

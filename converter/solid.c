@@ -462,6 +462,8 @@ static void parse_blob(Converter *cv, ObjectNode *object) {
         array_push(&textures, texture);
         object->has_textures = object->has_textures || texture;
     }
+    if (!components.count)
+        die_expected(cv, "a component (Need at least one component in a blob)");
     blob->count = (uint32_t)components.count;
     blob->components =
         arena_copy(cv->arena, components.items, components.count * sizeof *components.items);

@@ -262,6 +262,30 @@ static void test_files(void **state) {
     assert_false(file_exists("build/test/language/written.txt"));
 }
 
+// Whole statements: what POV-Ray reads is read, what it refuses is refused.
+static void test_grammar(void **state) {
+    (void)state;
+    FILE *in = fopen("tests/grammar.txt", "r");
+    assert_non_null(in);
+    char line[1024], text[1200];
+    size_t right = 0, wrong = 0;
+    while (fgets(line, sizeof line, in)) {
+        if (line[0] == '#')
+            continue;
+        bool is_right = strncmp(line, "ok ", 3) == 0;
+        assert_true(is_right || strncmp(line, "no ", 3) == 0);
+        snprintf(text, sizeof text, "#version 3.7; global_settings { assumed_gamma 1 }\n%s",
+                 line + 3);
+        char *message = run_text(text);
+        if (is_right == (message != NULL))
+            fail_msg("POV-Ray says %s: %s", line, message ? message : "");
+        free(message);
+        *(is_right ? &right : &wrong) += 1;
+    }
+    fclose(in);
+    assert_true(right > 100 && wrong > 50);
+}
+
 // ---- limits -----------------------------------------------------------------------------------
 
 // head, then piece count times, then middle, then tail count times.
@@ -556,12 +580,12 @@ static int set_up(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_self_checking), cmocka_unit_test(test_povray_agrees),
-        cmocka_unit_test(test_errors),        cmocka_unit_test(test_chain),
-        cmocka_unit_test(test_options),       cmocka_unit_test(test_files),
-        cmocka_unit_test(test_nesting),       cmocka_unit_test(test_endless),
-        cmocka_unit_test(test_built_up),      cmocka_unit_test(test_limits),
-        cmocka_unit_test(test_stack),         cmocka_unit_test(test_mutations),
-        cmocka_unit_test(test_interrupt),
+        cmocka_unit_test(test_errors),        cmocka_unit_test(test_grammar),
+        cmocka_unit_test(test_chain),         cmocka_unit_test(test_options),
+        cmocka_unit_test(test_files),         cmocka_unit_test(test_nesting),
+        cmocka_unit_test(test_endless),       cmocka_unit_test(test_built_up),
+        cmocka_unit_test(test_limits),        cmocka_unit_test(test_stack),
+        cmocka_unit_test(test_mutations),     cmocka_unit_test(test_interrupt),
     };
     return cmocka_run_group_tests_name("language", tests, set_up, NULL);
 }

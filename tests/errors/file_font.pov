@@ -1,2 +1,2 @@
-// 2:12 cannot open font file 'nope.ttf'
+// 2:12 font 'nope.ttf'
 text { ttf "nope.ttf" "A", 1, 0 }

@@ -1,0 +1,2 @@
+// 2:22 need at least one component
+blob { threshold 0.5 }

@@ -1,0 +1,2 @@
+// 2:15 keyword 'hierarchy' cannot be used with this object
+sphere { 0, 1 hierarchy off }

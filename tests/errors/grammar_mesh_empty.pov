@@ -1,0 +1,2 @@
+// 2:8 no triangles in triangle mesh
+mesh { }

@@ -156,7 +156,7 @@ void ray_oracle(RayOracle *oracle, const PatchDef *def, const Ray *ray, double t
 typedef long double Real;
 
 typedef struct {
-    Real p[3][POINTS]; // across twice, and t
+    Real p[4][POINTS]; // across twice, t, each times the weight; the weight
 } Strip;
 
 typedef struct {
@@ -193,6 +193,10 @@ static Real most_of(const Real *p, int count) {
 
 static Real larger(Real a, Real b) { return a > b ? a : b; }
 
+static Real step_of(const Strip *s, int c, int a, int b) {
+    return fabsl(s->p[c][a] / s->p[3][a] - s->p[c][b] / s->p[3][b]);
+}
+
 // Which direction is longer, depth counted as far as it exceeds its step?
 static bool longer_in_u(const Tube *tube, const Strip *s) {
     int nu = tube->nu, nv = tube->nv, count = (nu + 1) * (nv + 1);
@@ -201,9 +205,9 @@ static bool longer_in_u(const Tube *tube, const Strip *s) {
         Real scale = c < 2 ? 1 : tube->reach / (tube->t1 - tube->t0);
         for (int k = 0; k < count; k++) {
             if (k > nv)
-                size[0] = larger(size[0], scale * nu * fabsl(s->p[c][k] - s->p[c][k - nv - 1]));
+                size[0] = larger(size[0], scale * nu * step_of(s, c, k, k - nv - 1));
             if (k % (nv + 1))
-                size[1] = larger(size[1], scale * nv * fabsl(s->p[c][k] - s->p[c][k - 1]));
+                size[1] = larger(size[1], scale * nv * step_of(s, c, k, k - 1));
         }
     }
     return size[0] >= size[1];
@@ -214,8 +218,11 @@ static bool enters(Tube *tube, const Strip *s, int depth) {
     int nu = tube->nu, nv = tube->nv, count = (nu + 1) * (nv + 1);
     Real low[3], high[3];
     for (int c = 0; c < 3; c++) {
-        low[c] = least_of(s->p[c], count);
-        high[c] = most_of(s->p[c], count);
+        Real p[POINTS] = {0};
+        for (int k = 0; k < count; k++)
+            p[k] = s->p[c][k] / s->p[3][k];
+        low[c] = least_of(p, count);
+        high[c] = most_of(p, count);
         Real end[2] = {c < 2 ? -tube->reach : tube->t0, c < 2 ? tube->reach : tube->t1};
         if (low[c] > end[1] || high[c] < end[0])
             return false;
@@ -231,7 +238,7 @@ static bool enters(Tube *tube, const Strip *s, int depth) {
         return false;
     Strip half[2];
     bool along_u = longer_in_u(tube, s);
-    for (int c = 0; c < 3; c++) {
+    for (int c = 0; c < 4; c++) {
         Real *a = half[0].p[c], *b = half[1].p[c];
         const Real *p = s->p[c];
         for (int k = 0; along_u && k <= nv; k++)
@@ -274,9 +281,11 @@ static void lay_along(const PatchDef *def, const Ray *ray, const Frame *f, Strip
         Real q[3];
         for (int axis = 0; axis < 3; axis++)
             q[axis] = (Real)vec_get(def->points[k], axis) - vec_get(ray->org, axis);
-        s->p[0][k] = along(q, f->e1);
-        s->p[1][k] = along(q, f->e2);
-        s->p[2][k] = along(q, f->w) / f->length;
+        Real w = def->weights ? def->weights[k] : 1.0;
+        s->p[0][k] = w * along(q, f->e1);
+        s->p[1][k] = w * along(q, f->e2);
+        s->p[2][k] = w * along(q, f->w) / f->length;
+        s->p[3][k] = w;
     }
 }
 
@@ -314,8 +323,8 @@ static Real curve(const Real *p, int n, Real t, Real *slope) {
     for (int k = n; k > 0; k--) {
         if (k == 1)
             *slope = n * (row[1] - row[0]);
-        for (int i = 0; i < k; i++)
-            row[i] += t * (row[i + 1] - row[i]);
+        for (int i = 0; i < k; i++) // as a mean: weights keep their relative accuracy
+            row[i] = (1 - t) * row[i] + t * row[i + 1];
     }
     return row[0];
 }
@@ -330,13 +339,31 @@ static void surface(const PatchDef *def, const Real *p, Real u, Real v, Real out
     out[2] = curve(slope, nu, u, &none);
 }
 
+// One coordinate of the patch less `from`, weights included.
+static void coordinate(const PatchDef *def, int axis, double from, Real out[3]) {
+    Real p[POINTS] = {0}, w[3];
+    int count = (int)((def->degree_u + 1) * (def->degree_v + 1));
+    Real u = out[0], v = out[1];
+    for (int k = 0; k < count; k++)
+        p[k] =
+            ((Real)vec_get(def->points[k], axis) - from) * (def->weights ? def->weights[k] : 1.0);
+    surface(def, p, u, v, out);
+    if (!def->weights)
+        return;
+    for (int k = 0; k < count; k++)
+        p[k] = def->weights[k];
+    surface(def, p, u, v, w);
+    out[0] /= w[0];
+    for (int k = 1; k < 3; k++)
+        out[k] = (out[k] - out[0] * w[k]) / w[0];
+}
+
 void ray_oracle_jet(const PatchDef *def, double u, double v, Vec3 out[3]) {
     Real s[3][3];
     for (int axis = 0; axis < 3; axis++) {
-        Real p[POINTS];
-        for (uint32_t k = 0; k < (def->degree_u + 1) * (def->degree_v + 1); k++)
-            p[k] = vec_get(def->points[k], axis);
-        surface(def, p, u, v, s[axis]);
+        s[axis][0] = u;
+        s[axis][1] = v;
+        coordinate(def, axis, 0.0, s[axis]);
     }
     for (int k = 0; k < 3; k++)
         out[k] = vec3((double)s[0][k], (double)s[1][k], (double)s[2][k]);
@@ -345,10 +372,8 @@ void ray_oracle_jet(const PatchDef *def, double u, double v, Vec3 out[3]) {
 double ray_oracle_residual(const PatchDef *def, const Ray *ray, double t, double u, double v) {
     Real square = 0;
     for (int axis = 0; axis < 3; axis++) {
-        Real p[POINTS], s[3];
-        for (uint32_t k = 0; k < (def->degree_u + 1) * (def->degree_v + 1); k++)
-            p[k] = (Real)vec_get(def->points[k], axis) - vec_get(ray->org, axis);
-        surface(def, p, u, v, s);
+        Real s[3] = {u, v, 0};
+        coordinate(def, axis, vec_get(ray->org, axis), s);
         Real off = (Real)t * vec_get(ray->dir, axis) - s[0];
         square += off * off;
     }

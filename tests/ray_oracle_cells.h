@@ -25,7 +25,7 @@ typedef struct {
 
 typedef struct {
     NAME(Cell) cells[DEPTH + 2];
-    REAL z[POINTS];            // t of the control points
+    REAL z[POINTS], w[POINTS]; // t of the control points, times their weights; the weights
     REAL ez, slope_u, slope_v; // rounding of t; bounds of |dt/du| and |dt/dv|
 } NAME(Work);
 
@@ -209,6 +209,8 @@ static inline REAL NAME(residual)(int nu, int nv, const NAME(Map) * map, REAL x,
 
 static void NAME(add)(Task *task, REAL u, REAL v, REAL ru, REAL rv, RayOracleKind kind) {
     REAL tu, tv, t = NAME(surface)(task->nu, task->nv, NAME(work).z, u, v, &tu, &tv);
+    if (task->def->weights)
+        t /= NAME(surface)(task->nu, task->nv, NAME(work).w, u, v, &tu, &tv);
     REAL dt = NAME(work).ez + NAME(work).slope_u * ru + NAME(work).slope_v * rv;
     add_item(task, (double)t, (double)dt, (double)u, (double)v, (double)ru, (double)rv, kind);
 }
@@ -338,7 +340,7 @@ static void NAME(project)(const Task *task) {
             k = axis;
     int a = (k + 1) % 3, b = (k + 2) % 3;
     WIDE da = vec_get(ray->dir, a), db = vec_get(ray->dir, b), dk = vec_get(ray->dir, k);
-    WIDE x[POINTS], y[POINTS], ex = 0, ey = 0, far = 0;
+    WIDE x[POINTS], y[POINTS], ex = 0, ey = 0, far = 0, most = 0, least = INFINITY;
     for (int n = 0; n < count; n++) {
         Vec3 p = def->points[n];
         WIDE qa = (WIDE)vec_get(p, a) - vec_get(ray->org, a);
@@ -347,29 +349,42 @@ static void NAME(project)(const Task *task) {
         WIDE px = qa * dk, py = qb * dk, sx = qk * da, sy = qk * db;
         x[n] = px - sx;
         y[n] = py - sy;
-        // Each term errs by 2 units (difference, product), their difference by 1 more.
-        WIDE tx = 4 * WIDE_UNIT * (NAME(wide_abs)(px) + NAME(wide_abs)(sx));
-        WIDE ty = 4 * WIDE_UNIT * (NAME(wide_abs)(py) + NAME(wide_abs)(sy));
+        // Each term errs by 2 units (difference, product), their difference by 1 more, and one more
+        // is the weight's.
+        WIDE w = def->weights ? def->weights[n] : 1.0;
+        WIDE tx = 4 * WIDE_UNIT * w * (NAME(wide_abs)(px) + NAME(wide_abs)(sx));
+        WIDE ty = 4 * WIDE_UNIT * w * (NAME(wide_abs)(py) + NAME(wide_abs)(sy));
+        x[n] *= w;
+        y[n] *= w;
         ex = tx > ex ? tx : ex;
         ey = ty > ey ? ty : ey;
-        NAME(work).z[n] = (REAL)(qk / dk);
+        NAME(work).z[n] = (REAL)(w * qk / dk);
+        NAME(work).w[n] = (REAL)w;
         far = NAME(wide_abs)(qk / dk) > far ? NAME(wide_abs)(qk / dk) : far;
+        most = w > most ? w : most;
+        least = w < least ? w : least;
     }
     NAME(Cell) *whole = &NAME(work).cells[0];
     whole->ex = NAME(scale)(x, ex, count, whole->x);
     whole->ey = NAME(scale)(y, ey, count, whole->y);
     whole->u = whole->v = 0;
     whole->wu = whole->wv = 1;
-    NAME(work).ez = 8 * (task->nu + task->nv) * UNIT * (REAL)far;
-    REAL su = 0, sv = 0;
-    const REAL *z = NAME(work).z;
-    for (int n = task->nv + 1; n < count; n++)
+    // t = N / W, N = sum w t B: |N'| and |W'| come from differences, |t| <= far.
+    const REAL *z = NAME(work).z, *w = NAME(work).w;
+    REAL ratio = (REAL)(most / least), su = 0, sv = 0, wu = 0, wv = 0;
+    NAME(work).ez = 16 * (task->nu + task->nv) * UNIT * (REAL)far * ratio;
+    for (int n = task->nv + 1; n < count; n++) {
         su = NAME(max)(su, NAME(abs)(z[n] - z[n - task->nv - 1]));
-    for (int i = 0; i <= task->nu; i++)
-        for (int n = i * (task->nv + 1); n < i * (task->nv + 1) + task->nv; n++)
-            sv = NAME(max)(sv, NAME(abs)(z[n + 1] - z[n]));
-    NAME(work).slope_u = task->nu * su;
-    NAME(work).slope_v = task->nv * sv;
+        wu = NAME(max)(wu, NAME(abs)(w[n] - w[n - task->nv - 1]));
+    }
+    for (int n = 1; n < count; n++) {
+        if (n % (task->nv + 1) == 0)
+            continue;
+        sv = NAME(max)(sv, NAME(abs)(z[n] - z[n - 1]));
+        wv = NAME(max)(wv, NAME(abs)(w[n] - w[n - 1]));
+    }
+    NAME(work).slope_u = task->nu * (su + (REAL)far * wu) / (REAL)least;
+    NAME(work).slope_v = task->nv * (sv + (REAL)far * wv) / (REAL)least;
 }
 
 static void NAME(find)(Task *task, int budget, int depth_limit) {

@@ -19,6 +19,7 @@ typedef struct {
     uint64_t time[BUCKETS]; // of nearest, by eighths of a power of two, in ns
     double worst;           // ns: nearest, any or all, confirmed by repetition
     int64_t worst_scene, worst_ray;
+    uint64_t bits; // answers that differ on another instruction set
     int shown;
 } Tally;
 
@@ -28,7 +29,9 @@ typedef struct {
     uint64_t number; // of the scene
     StressScene scene;
     PatchSet *sets[METHODS];
-    Tally *tally; // one a method
+    Tally *tally;    // one a method
+    PatchHit *first; // of each ray by qi, on the instruction set that was asked for; t NaN: none
+    bool *first_any;
 } Stage;
 
 StressOptions stress_options_default(void) {
@@ -104,6 +107,55 @@ static void answer(const Stage *stage, int method, const StressRay *r, uint64_t 
             tally->worst = ns;
         }
     }
+}
+
+// ---- Instruction sets
+
+static const char *const isas[] = {"scalar", "avx2", "avx512"};
+
+static void keep(const Stage *stage, int method, uint64_t ray, const StressAnswer *a) {
+    if (method != METHOD_QI || !stage->first)
+        return;
+    stage->first[ray] = a->hit;
+    if (!a->found)
+        stage->first[ray].t = NAN;
+    stage->first_any[ray] = a->any;
+}
+
+static bool same_bits(const PatchHit *a, const PatchHit *b) {
+    const double x[] = {a->t, a->u, a->v, a->normal.x, a->normal.y, a->normal.z, a->bound};
+    const double y[] = {b->t, b->u, b->v, b->normal.x, b->normal.y, b->normal.z, b->bound};
+    return memcmp(x, y, sizeof x) == 0 && a->id == b->id;
+}
+
+// All rays of the scene once more on every other instruction set that this machine has.
+static void compare_isas(const Stage *stage, uint64_t count) {
+    if (!stage->first)
+        return;
+    const char *own = patch_isa_name();
+    for (size_t n = 0; n < sizeof isas / sizeof *isas; n++) {
+        if (strcmp(isas[n], own) == 0 || patch_isa_choose(isas[n]) != PATCH_ISA_CHOSEN)
+            continue;
+        uint64_t bits = 0;
+#pragma omp parallel for schedule(dynamic, 64) reduction(+ : bits)
+        for (uint64_t ray = 0; ray < count; ray++) {
+            StressRay r;
+            StressAnswer a;
+            stress_ray_make(stage->which, &stage->scene, stage->options->seed, stage->number, ray,
+                            &r);
+            ask(stage->sets[METHOD_QI], &r, ASK_NEAREST, &a);
+            ask(stage->sets[METHOD_QI], &r, ASK_ANY, &a);
+            const PatchHit *first = &stage->first[ray];
+            bool same = a.found == !isnan(first->t) && (!a.found || same_bits(&a.hit, first)) &&
+                        a.any == stage->first_any[ray];
+            bits += !same;
+            if (!same && bits == 1)
+                printf("%s differs on %s and %s: scene %llu ray %llu\n", stage->which->name, own,
+                       isas[n], (unsigned long long)stage->number, (unsigned long long)ray);
+        }
+        stage->tally[METHOD_QI].bits += bits;
+    }
+    patch_isa_choose(own);
 }
 
 // ---- One ray
@@ -193,6 +245,7 @@ static void trace(const Stage *stage, uint64_t ray) {
         }
         StressAnswer a;
         answer(stage, method, &r, ray, &a);
+        keep(stage, method, ray, &a);
         truth.open = false;
         StressVerdict verdict = stress_judge(stage->which, (PatchMethod)method, &truth, &a);
         record(stage, method, &r, ray, verdict, &a, &truth);
@@ -210,7 +263,9 @@ static void open_stage(Stage *stage, bool all_methods) {
         if (!wants(stage->options->only_method, patch_method_name((PatchMethod)method)) ||
             (!all_methods && method != METHOD_QI))
             continue;
-        if (method == METHOD_TESSELLATION && embree_missing())
+        bool plain = method == METHOD_QI_PAPER || stress_is_triangles((PatchMethod)method);
+        if ((method == METHOD_TESSELLATION && embree_missing()) ||
+            (plain && stage->scene.defs[0].weights))
             continue;
         PatchSetOptions options = patchset_options_default();
         options.method = (PatchMethod)method;
@@ -246,9 +301,14 @@ static void run_case(const StressOptions *options, const StressCase *which, doub
         open_stage(&stage,
                    which->per_scene > 1000 || number % 16 == 0 || options->only_method != NULL);
         uint64_t left = total - number * per_scene, count = left < per_scene ? left : per_scene;
+        if (stage.sets[METHOD_QI] && !stress_case_leaves(which)) {
+            stage.first = ARENA_ARRAY(stage.scene.arena, PatchHit, count);
+            stage.first_any = ARENA_ARRAY(stage.scene.arena, bool, count);
+        }
 #pragma omp parallel for schedule(dynamic, 64)
         for (uint64_t ray = 0; ray < count; ray++)
             trace(&stage, ray);
+        compare_isas(&stage, count);
         close_stage(&stage);
     }
 }
@@ -274,7 +334,7 @@ static uint64_t failures_of(const Tally *t) {
     uint64_t sum = 0;
     for (int k = STRESS_FINE + 1; k < STRESS_VERDICTS; k++)
         sum += t->verdict[k];
-    return sum;
+    return sum + t->bits;
 }
 
 static void print_row(const char *name, const Tally *t) {
@@ -282,6 +342,7 @@ static void print_row(const char *name, const Tally *t) {
     for (int k = STRESS_FINE + 1; k < STRESS_VERDICTS; k++)
         printf(" %llu |", (unsigned long long)t->verdict[k]);
     double median = median_of(t);
+    printf(" %llu |", (unsigned long long)t->bits);
     printf(" %llu | %.2f | %.1f | %.0f |\n", (unsigned long long)t->open, median * 1e-3,
            t->worst * 1e-3, median > 0.0 ? t->worst / median : 0.0);
 }
@@ -290,10 +351,10 @@ static void report(const StressOptions *options, const Tally *tallies, int metho
     printf("\n%s\n\n| case | rays | hits |", patch_method_name((PatchMethod)method));
     for (int k = STRESS_FINE + 1; k < STRESS_VERDICTS; k++)
         printf(" %s |", stress_verdict_name((StressVerdict)k));
-    printf(" open | median, us | worst, us | ratio |\n|---|---|---|");
+    printf(" bits | open | median, us | worst, us | ratio |\n|---|---|---|");
     for (int k = STRESS_FINE + 1; k < STRESS_VERDICTS; k++)
         printf("---|");
-    printf("---|---|---|---|\n");
+    printf("---|---|---|---|---|\n");
     for (int n = 0; n < stress_case_count; n++)
         if (wants(options->only_case, stress_cases[n].name) && tallies[n * METHODS + method].rays)
             print_row(stress_cases[n].name, &tallies[n * METHODS + method]);
@@ -334,8 +395,8 @@ uint64_t stress_run(const StressOptions *options) {
     for (int method = 0; method < METHODS && options->ray < 0; method++)
         if (wants(options->only_method, patch_method_name((PatchMethod)method)))
             report(options, tallies, method);
-    printf("\nseed %llu, %d threads, %.0f s: %llu failures of qi\n",
-           (unsigned long long)options->seed, omp_get_max_threads(), (now() - start) * 1e-9,
-           (unsigned long long)failures);
+    printf("\nseed %llu, %s, %d threads, %.0f s: %llu failures of qi\n",
+           (unsigned long long)options->seed, patch_isa_name(), omp_get_max_threads(),
+           (now() - start) * 1e-9, (unsigned long long)failures);
     return failures;
 }

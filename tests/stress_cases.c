@@ -292,6 +292,10 @@ const StressCase stress_cases[] = {
     CASE("teapot_inside", "teapot, from within its hull", 4, 20000, teapot, inside, 1),
     CASE("random", "bicubic patches, smooth to wild", 4, 500, random, surface, 0.5),
     CASE("degrees", "bi-degrees 1 to 16, mixed", 0.5, 200, degrees, surface, 0.3),
+    CASE("rational", "weights 1/3 to 3, bi-degrees 1 to 4", 0.5, 200, rational, surface, 0.5),
+    CASE("rational_1e6", "weights 1e-6 to 1e6", 0.5, 200, rational, surface, 6),
+    CASE("rational_round", "a quarter of a torus, exactly", 0.5, 200, round, surface, 0),
+    CASE("rational_grazing", "tangent to the last bit", 0.2, 200, round, grazing, 0),
     CASE("subdiv_params", "at u, v of halves, thirds, quarters, ...", 2, 500, random, parameters,
          0.3),
     CASE("axis_aligned", "along axes, zeros of either sign", 2, 20000, teapot, axis, 1),
@@ -332,6 +336,7 @@ const StressCase stress_cases[] = {
     CASE("scale_1e-300", "patches of size 1e-300", 0.5, 500, scaled, surface, 1e-300),
     CASE("scale_1e150", "1e150", 0.5, 500, scaled, surface, 1e150),
     CASE("denormals", "1e-310: all coordinates are denormal", 0.5, 500, scaled, surface, 1e-310),
+    CASE("scale_1e300", "1e300", 0.5, 500, scaled, surface, 1e300),
     CASE("offset_1e4", "teapot 1e4 away", 1, 20000, teapot_moved, hull, 1e4),
     CASE("offset_1e7", "teapot 1e7 away", 1, 20000, teapot_moved, hull, 1e7),
     CASE("far_origin", "rays from up to 1e7 sizes away", 1, 500, sheet, far, 1e7),
@@ -340,6 +345,7 @@ const StressCase stress_cases[] = {
     // Secondary rays
     CASE("self_hit_leaving", "from a hit of the teapot, any way", 1, 20000, teapot, leaving, 1),
     CASE("leaving_random", "from a hit of a wild patch", 1, 500, random, leaving, 0.5),
+    CASE("leaving_round", "from a quarter of a torus, exactly round", 0.5, 500, round, leaving, 0),
     CASE("leaving_sheets", "from one of two sheets 1e-6 apart", 1, 500, thin_sheets, leaving, 1e-6),
     // Infinitely many answers, and none
     CASE("degenerate_point", "all 16 points equal", 0.2, 200, point, point, 0),
@@ -357,6 +363,8 @@ const StressCase stress_cases[] = {
 };
 const int stress_case_count = sizeof stress_cases / sizeof *stress_cases;
 
+bool stress_case_leaves(const StressCase *which) { return which->aim == aim_leaving; }
+
 // ---- Making them
 
 static void side_of(const PatchDef *def, int side, bool backwards, Vec3 out[4]) {
@@ -366,7 +374,9 @@ static void side_of(const PatchDef *def, int side, bool backwards, Vec3 out[4]) 
     }
 }
 
-static bool is_bicubic(const PatchDef *def) { return def->degree_u == 3 && def->degree_v == 3; }
+static bool is_bicubic(const PatchDef *def) {
+    return def->degree_u == 3 && def->degree_v == 3 && !def->weights;
+}
 
 static void find_sides(StressScene *s) {
     for (int a = 0; a < s->count * 4; a++) {

@@ -6,7 +6,6 @@
 
 #include "base/arena.h"
 #include "base/rng.h"
-#include "patch/bezier.h"
 #include "patch/patch.h"
 
 // A side of a patch: 0 u = 0, 1 u = 1, 2 v = 0, 3 v = 1.
@@ -57,8 +56,8 @@ typedef struct StressCase {
 extern const StressCase stress_cases[];
 extern const int stress_case_count;
 
-// The patch as the evaluators want it.
-void stress_patch(const PatchDef *def, Bezier *out);
+// Do its rays begin at hits that the method finds first?
+bool stress_case_leaves(const StressCase *which);
 // *scene is made anew (its arena too); destroy it with stress_scene_destroy.
 void stress_scene_make(const StressCase *which, uint64_t seed, uint64_t number, StressScene *scene);
 void stress_scene_destroy(StressScene *scene);
@@ -88,6 +87,8 @@ void scene_twisted(StressScene *s, Rng *rng, double unused);
 void scene_collapsed(StressScene *s, Rng *rng, double unused);
 void scene_t_junction(StressScene *s, Rng *rng, double unused);
 void scene_scaled(StressScene *s, Rng *rng, double scale);
+void scene_rational(StressScene *s, Rng *rng, double decades);
+void scene_round(StressScene *s, Rng *rng, double unused);
 void scene_mixed_sizes(StressScene *s, Rng *rng, double unused);
 void scene_many(StressScene *s, Rng *rng, double teapots);
 

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 // What is right. For one ray and one method's answers (nearest, any, all):
 //
-//   allowed   of a patch: tolerance x its diameter + the rounding that the ray's distance costs.
+//   allowed   of a patch: tolerance x its diameter + the rounding that the ray's distance costs
+//   (and,
+//             of a rational patch, the last bit of u and v).
 //   false     a hit farther than `allowed` from S(u,v), or outside of the range, or (u,v) outside
 //   of
 //             the patch; a hit of the surface that a ray leaves.
@@ -11,6 +13,7 @@
 //   lost      a proved crossing of which the list of all hits has nothing.
 //   twice     two hits in one place where the oracle proves a single crossing.
 //   differ    `any` and `nearest` do not agree.
+//   bits      answers that differ on another instruction set (qi).
 //   NaN       in any number of a hit, or a normal that is not of unit length.
 //
 // A hit at depth t accounts for a proved crossing at depth c when |t - c| is no more than what a

@@ -2,6 +2,8 @@
 // Scenes of stress_cases.h.
 #include "stress_cases.h"
 
+#include "ray_oracle.h"
+
 #include "base/diag.h"
 
 #include <stdio.h>
@@ -350,6 +352,35 @@ void scene_scaled(StressScene *s, Rng *rng, double scale) {
     move_all(s, scale, vec3(0, 0, 0));
 }
 
+// Weights between 10^-decades and 10^decades.
+void scene_rational(StressScene *s, Rng *rng, double decades) {
+    int du = 1 + (int)(rng_next(rng) % 4), dv = 1 + (int)(rng_next(rng) % 4);
+    add_sheet(s, rng, du, dv, 0.3 * rng_unit(rng));
+    double *weights = ARENA_ARRAY(s->arena, double, (size_t)count_of(s, 0));
+    for (int k = 0; k < count_of(s, 0); k++)
+        weights[k] = pow(10.0, rng_range(rng, -decades, decades));
+    s->defs[0].weights = weights;
+    turn_all(s, rng);
+}
+
+// A quarter of a torus's outside, exactly round both ways: weights 1, 1/sqrt(2), 1.
+void scene_round(StressScene *s, Rng *rng, double unused) {
+    (void)unused;
+    static const double x[3] = {1, 1, 0}, y[3] = {0, 1, 1};
+    double weight[3] = {1.0, sqrt(0.5), 1.0}, minor = rng_range(rng, 0.1, 1.0);
+    Vec3 *p = add(s, 2, 2);
+    double *weights = ARENA_ARRAY(s->arena, double, 9);
+    for (int i = 0; i < 3; i++) {
+        for (int j = 0; j < 3; j++) {
+            double r = 1.0 + minor * x[j];
+            p[3 * i + j] = vec3(r * x[i], r * y[i], minor * y[j]);
+            weights[3 * i + j] = weight[i] * weight[j];
+        }
+    }
+    s->defs[0].weights = weights;
+    turn_all(s, rng);
+}
+
 void scene_mixed_sizes(StressScene *s, Rng *rng, double unused) {
     (void)unused;
     for (int n = 0; n < 5; n++) {
@@ -384,17 +415,12 @@ Vec3 stress_direction(Rng *rng) {
     }
 }
 
-void stress_patch(const PatchDef *def, Bezier *out) {
-    bezier_init(out, (int)def->degree_u, (int)def->degree_v, def->points);
-}
-
 Vec3 stress_point(const StressScene *s, int patch, double u, double v, Vec3 *su, Vec3 *sv) {
-    Bezier b;
-    stress_patch(&s->defs[patch], &b);
-    Vec3 a, c, p = bezier_eval1(&b, u, v, &a, &c);
+    Vec3 jet[3];
+    ray_oracle_jet(&s->defs[patch], u, v, jet);
     if (su)
-        *su = a;
+        *su = jet[1];
     if (sv)
-        *sv = c;
-    return p;
+        *sv = jet[2];
+    return jet[0];
 }

@@ -548,6 +548,39 @@ static void mixed_sizes(void **state) {
     release();
 }
 
+// Sizes at the ends of double's range, directions of any length: denormal coordinates were never
+// hit, a direction of length 1e-310 was no direction, 1e300 had an infinite tolerance.
+static void ends_of_the_range(void **state) {
+    (void)state;
+    static const double sizes[] = {1e-315, 1e-300, 1.0, 1e160, 1e300};
+    static const double lengths[] = {1e-312, 1e-200, 1.0, 1e200, 1e306};
+    for (size_t k = 0; k < sizeof sizes / sizeof *sizes; k++) {
+        Rng rng = {15};
+        scene.count = 1;
+        random_patch(&rng, 3, 3, 0.1, &scene.patch[0]);
+        for (int i = 0; i < 16; i++)
+            scene.patch[0].p[i] = vec_scale(scene.patch[0].p[i], sizes[k]);
+        commit(METHOD_QI);
+        for (size_t n = 0; n < sizeof lengths / sizeof *lengths; n++) {
+            double length = lengths[n] < sizes[k] * 1e-300 || lengths[n] > sizes[k] * 1e300
+                                ? sizes[k] // t itself must be a number
+                                : lengths[n];
+            Ray ray = {{0.4 * sizes[k], 0.6 * sizes[k], -2.0 * sizes[k]}, {0, 0, length}};
+            PatchHit hit;
+            assert_true(patchset_intersect(scene.set, &ray, 0, INFINITY, 1, NULL, &hit));
+            assert_true(patchset_occluded(scene.set, &ray, 0, INFINITY, 1, NULL));
+            PatchDef def = def_of(0);
+            assert_true(ray_oracle_residual(&def, &ray, hit.t, hit.u, hit.v) <= hit.bound);
+            assert_true(hit.bound <= 1e-8 * sizes[k] + 0x1p-1073);
+            assert_true(fabs(hit.u - 0.4) < 0.2 && fabs(hit.v - 0.6) < 0.2);
+            HitList list = {0};
+            patchset_all(scene.set, &ray, 0, INFINITY, 1, NULL, collect, &list);
+            assert_int_equal(list.count, 1);
+        }
+        release();
+    }
+}
+
 // A ray from very far away: its own rounding is all that may be lost.
 static void far_origins(void **state) {
     (void)state;
@@ -742,6 +775,7 @@ int main(void) {
         cmocka_unit_test(scales_and_offsets),
         cmocka_unit_test(mixed_sizes),
         cmocka_unit_test(far_origins),
+        cmocka_unit_test(ends_of_the_range),
         cmocka_unit_test(thin_and_long_patches),
         cmocka_unit_test(thin_sheets),
         cmocka_unit_test(degenerate_patches),

@@ -642,6 +642,56 @@ static void loose_tolerances_are_kept(void **state) {
     }
 }
 
+// ---- What the stress found
+
+// A range that begins on a pole, a little more or less: what lies there is one place, in the range
+// or not. Every slice of the patch was halved down to the last bit: 3,000 nets for each piece.
+static void ranges_that_begin_on_a_pole_are_cheap(void **state) {
+    (void)state;
+    Bezier lid;
+    teapot_lid(&lid);
+    Rng rng = {22};
+    for (int k = 0; k < 100; k++) {
+        Vec3 dir = random_direction(&rng);
+        QiQuery q = qi_query_default(&lid, (Ray){vec_sub(lid.p[0], dir), dir});
+        q.t_min = 1.0 + (k % 3 - 1) * 1e-15;
+        Answer a;
+        ask(&METHODS[REDUCE], &lid, &q, &a);
+        assert_true(a.steps < 300);
+        assert_false(a.limited);
+    }
+}
+
+// All points on one line, back and forth, and the ray along it: the smallest t of the whole patch.
+// It was the t of whichever point the last steps of Newton's came to.
+static void first_depth_along_a_segment(void **state) {
+    (void)state;
+    Rng rng = {23};
+    for (int k = 0; k < 50; k++) {
+        Bezier s = {.du = 3, .dv = 3};
+        double least = 1.0;
+        for (int i = 0; i < 16; i++) {
+            double t = (double)(rng_next(&rng) % 65) / 64.0;
+            s.p[i] = vec3(t, 2.0 * t, -t);
+        }
+        for (int i = 0; i <= 200; i++)
+            for (int j = 0; j <= 200; j++)
+                least = fmin(least, bezier_eval(&s, i / 200.0, j / 200.0).x);
+        QiQuery q = qi_query_default(&s, (Ray){{-1, -2, 1}, {1, 2, -1}});
+        QiHit hit;
+        QiStats stats = {0, 0, 0, 0};
+        assert_true(qi_reduce_nearest(&s, &q, &stats, &hit));
+        assert_true(hit.t <= 1.0 + least + 1e-8);
+        assert_true(hit.t >= 1.0 + least - 1e-3); // the grid is no finer
+        assert_true(stats.steps < 600);
+        // And from within: the place where the ray begins.
+        q.ray.org = vec3(0.0, 0.0, 0.0);
+        q.t_min = 0.5 * (least + bezier_eval(&s, 0.5, 0.5).x);
+        assert_true(qi_reduce_nearest(&s, &q, NULL, &hit));
+        assert_true(hit.t >= q.t_min && hit.t <= q.t_min + 1e-8);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(random_patches_agree_with_the_judge),
@@ -662,6 +712,8 @@ int main(void) {
         cmocka_unit_test(leaving_rays_do_not_hit_again),
         cmocka_unit_test(signed_zeros_and_lengths),
         cmocka_unit_test(loose_tolerances_are_kept),
+        cmocka_unit_test(ranges_that_begin_on_a_pole_are_cheap),
+        cmocka_unit_test(first_depth_along_a_segment),
     };
     return cmocka_run_group_tests_name("qi", tests, NULL, NULL);
 }

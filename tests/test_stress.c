@@ -17,8 +17,8 @@ static void every_case_holds(void **state) {
     (void)state;
     StressOptions options = stress_options_default();
     options.seed = 2;
-    options.rays = 20000;
-    options.watertight = 100000;
+    options.rays = 15000;
+    options.watertight = 50000;
     options.only_method = "qi";
     options.times = false;
     assert_int_equal(stress_run(&options), 0);

@@ -33,6 +33,34 @@ static double normal_curvature(const BezierJet *s, Vec3 n, Vec3 d) {
     return fabs(vec_dot(bend, n));
 }
 
+// The jet of N / W from those of N and W, by the quotient's rule.
+static void divide_jet(const Bezier *weights, double u, double v, BezierJet *s) {
+    BezierJet j;
+    bezier_eval2(weights, u, v, &j);
+    double w = 1.0 / j.s.x, wu = j.su.x, wv = j.sv.x;
+    s->s = vec_scale(s->s, w);
+    s->su = vec_scale(vec_madd(s->su, -wu, s->s), w);
+    s->sv = vec_scale(vec_madd(s->sv, -wv, s->s), w);
+    s->suu = vec_scale(vec_madd(vec_madd(s->suu, -2.0 * wu, s->su), -j.suu.x, s->s), w);
+    s->svv = vec_scale(vec_madd(vec_madd(s->svv, -2.0 * wv, s->sv), -j.svv.x, s->s), w);
+    s->suv = vec_madd(vec_madd(vec_madd(s->suv, -wu, s->sv), -wv, s->su), -j.suv.x, s->s);
+    s->suv = vec_scale(s->suv, w);
+}
+
+static void jet_at(const PatchDef *def, Bezier *patch, const PatchHit *hit, BezierJet *jet) {
+    if (def->weights) {
+        Bezier weights = {.du = patch->du, .dv = patch->dv};
+        for (int k = 0; k < bezier_count(patch); k++) {
+            weights.p[k] = vec3(def->weights[k], 0.0, 0.0);
+            patch->p[k] = vec_scale(patch->p[k], def->weights[k]);
+        }
+        bezier_eval2(patch, hit->u, hit->v, jet);
+        divide_jet(&weights, hit->u, hit->v, jet);
+    } else {
+        bezier_eval2(patch, hit->u, hit->v, jet);
+    }
+}
+
 double patch_clearance(const PatchDef *def, const PatchHit *hit, const Ray *ray) {
     Bezier patch;
     bezier_init(&patch, (int)def->degree_u, (int)def->degree_v, def->points);
@@ -59,7 +87,7 @@ double patch_clearance(const PatchDef *def, const PatchHit *hit, const Ray *ray)
     double curvature = 1.0; // at least: a patch is no longer than it is
     if (vec_length(flat) > 0.0) {
         BezierJet jet;
-        bezier_eval2(&patch, hit->u, hit->v, &jet);
+        jet_at(def, &patch, hit, &jet);
         curvature = fmax(curvature, normal_curvature(&jet, hit->normal, vec_normalize(flat)));
     }
     double t = sine * sine >= 4.0 * curvature * b ? 2.0 * b / sine : 4.5 * sqrt(b / curvature);

@@ -13,6 +13,7 @@
 #include "patch/query.h"
 #include "patch/rational.h"
 #include "patch/tessellation.h"
+#include "patch/units.h"
 
 #include <assert.h>
 #include <math.h>
@@ -28,6 +29,7 @@ struct PatchSet {
     Arena *arena;
     ARRAY(PatchDef) defs; // their points lie in the arena
     Box bounds;
+    int shift; // the methods see everything times 2^shift (units.h)
     bool committed;
     // The method's own, the others are NULL.
     Accel *accel;
@@ -94,6 +96,12 @@ void patchset_destroy(PatchSet *set) {
     arena_destroy(set->arena);
 }
 
+// Without squares, which could leave the range of numbers.
+static double diagonal(Box box) {
+    Vec3 d = vec_sub(box.high, box.low);
+    return hypot(d.x, hypot(d.y, d.z));
+}
+
 void patchset_add(PatchSet *set, const PatchDef *def) {
     assert(!set->committed);
     assert(def->degree_u >= 1 && def->degree_u <= 16 && def->degree_v >= 1 && def->degree_v <= 16);
@@ -113,7 +121,7 @@ void patchset_add(PatchSet *set, const PatchDef *def) {
     if (!(own.tolerance > 0.0) && set->options.tolerance_of)
         own.tolerance = set->options.tolerance_of(set->options.context, box);
     if (!(own.tolerance > 0.0))
-        own.tolerance = set->options.tolerance * vec_length(vec_sub(box.high, box.low));
+        own.tolerance = set->options.tolerance * diagonal(box);
     if (def->weights) {
         own.weights = arena_copy(set->arena, def->weights, count * sizeof(double));
         for (size_t i = 0; i < count; i++)
@@ -164,6 +172,10 @@ static void refuse_rational(const PatchSet *set) {
 void patchset_commit(PatchSet *set) {
     assert(!set->committed);
     set->committed = true;
+    // The facets have POV-Ray's absolute tolerances, whatever the size.
+    set->shift = set->options.method == METHOD_FACETS ? 0 : units_shift(set->bounds);
+    for (size_t i = 0; set->shift && i < set->defs.count; i++)
+        units_enter(&set->defs.items[i], (Vec3 *)set->defs.items[i].points, set->shift);
     const PatchDef *defs = set->defs.items;
     size_t count = set->defs.count;
     refuse_rational(set);
@@ -198,10 +210,7 @@ uint64_t patchset_memory(const PatchSet *set) {
            (set->tessellation ? tessellation_memory(set->tessellation) : 0);
 }
 
-static void ask(const PatchSet *set, Query *query) {
-    assert(set->committed);
-    if (!vec_is_finite(query->ray.org) || !vec_is_finite(query->ray.dir))
-        return;
+static void ask_method(const PatchSet *set, Query *query) {
     if (set->accel) {
         accel_query(set->accel, query);
         if (set->rational && !query_done(query))
@@ -216,6 +225,21 @@ static void ask(const PatchSet *set, Query *query) {
         facets_query(set->facets, query);
     else if (set->tessellation)
         tessellation_query(set->tessellation, query);
+}
+
+static void ask(const PatchSet *set, Query *query) {
+    assert(set->committed);
+    if (!vec_is_finite(query->ray.org) || !vec_is_finite(query->ray.dir))
+        return;
+    if (!set->shift && !units_odd(query->ray.dir)) {
+        ask_method(set, query);
+        return;
+    }
+    UnitsQuery units;
+    units_begin(&units, query, set->shift);
+    if (vec_is_finite(units.query.ray.org))
+        ask_method(set, &units.query);
+    units_end(&units);
 }
 
 static void add_stats(PatchStats *to, const Query *query) {

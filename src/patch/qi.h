@@ -16,8 +16,14 @@
 //   - One crossing is one hit, also where search pieces meet, at collapsed edges and at corners.
 //     Two crossings that the tolerance cannot tell apart (the two sides of a fold that the ray
 //     leaves by less than the tolerance) may be reported as one.
-//   - Where the ray lies in the surface the answers are infinitely many: some are reported, never
-//     none. With qi_reduce the one with the smallest t, within the tolerance, is among them.
+//   - Where the ray lies in the surface (in the plane of a flat patch, along a ruling, along a
+//   patch
+//     whose points are all on one line) the answers are infinitely many: some are reported, never
+//     none. With qi_reduce the one with the smallest t, within the tolerance, is among them; where
+//     the ray begins in the surface that is t_min. Where the patch is one point or a curve across
+//     the ray, and passes it by no more than rounding, that is one hit.
+//   - Where all of a piece lies within the tolerance of one point, depth included (a pole), the
+//     range has it or has it not: no more is tried to tell the two apart.
 //   - Work is bounded: after qi_work_limit() nets only one child of each net is followed. Separate
 //     crossings stay far below the limit; rays in the surface may reach it.
 //   - No heap, less than 200 KB of stack, no state: any number of threads.

@@ -105,8 +105,15 @@ static double off_ray(const QiTarget *q, Point p) {
     return fabs(p.x) * q->weight_x + fabs(p.y) * q->weight_y;
 }
 
+// Unequal weights let a rational patch run 1e6 times its size per unit of u: then the last bit of
+// the parameters moves the point by more than rounding does. The hit's bound says so.
 static bool on_ray(const QiTarget *q, Point p, double slacks) {
-    return fabs(p.x) <= slacks * q->frame.slack_x && fabs(p.y) <= slacks * q->frame.slack_y;
+    double x = slacks * q->frame.slack_x, y = slacks * q->frame.slack_y;
+    if (q->rational) {
+        x += 0.25 * slacks * DBL_EPSILON * (fabs(p.xu) + fabs(p.xv));
+        y += 0.25 * slacks * DBL_EPSILON * (fabs(p.yu) + fabs(p.yv));
+    }
+    return fabs(p.x) <= x && fabs(p.y) <= y;
 }
 
 bool qi_root_sharpen(QiTarget *q, BezierRect rect, double error_u, double error_v) {

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 // build/stress [--seed S] [--rays N] [--watertight N] [--case NAME] [--method NAME]
-//              [--scene K [--ray K]]: see tests/stress.h. Exit status 1 when qi fails.
+//              [--isa NAME] [--scene K [--ray K]]: see tests/stress.h. Exit status 1 when qi fails.
 #include "tests/stress.h"
+
+#include "patch/patch.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -9,7 +11,7 @@
 
 static int usage(void) {
     fprintf(stderr, "usage: build/stress [--seed S] [--rays N] [--watertight N] [--case NAME] "
-                    "[--method NAME] [--scene K [--ray K]]\n");
+                    "[--method NAME] [--isa scalar|avx2|avx512] [--scene K [--ray K]]\n");
     return 2;
 }
 
@@ -30,6 +32,8 @@ int main(int argc, char **argv) {
             options.only_case = value;
         else if (strcmp(argv[i], "--method") == 0)
             options.only_method = value;
+        else if (strcmp(argv[i], "--isa") == 0 && patch_isa_choose(value) == PATCH_ISA_CHOSEN)
+            continue;
         else if (strcmp(argv[i], "--scene") == 0)
             options.scene = strtoll(value, NULL, 10);
         else if (strcmp(argv[i], "--ray") == 0)

@@ -181,11 +181,13 @@ clean:
 	rm -rf build
 
 # Pictures against POV-Ray's, with a table: all textures of the standard includes; the texture scenes
-# of povray-examples. 200,000 random points through random patterns. Minutes each.
+# of povray-examples, and how long both take. 200,000 random points through random patterns. Minutes each.
 sheet: all
 	@tests/texture_sheet.sh
 examples-pictures: all
 	@tests/examples_pictures.sh
+examples-speed: all
+	@tests/examples_speed.sh
 points: build/test/test_points
 	@POINTS_ROUNDS=20 build/test/test_points
 
@@ -222,5 +224,5 @@ stress: deps
 	@$(MAKE) --no-print-directory -j$$(nproc) build/stress
 	@build/stress $(STRESS)
 
-.PHONY: sheet examples-pictures points install all deps test solids test-examples fuzz lint demo gallery bench bench-rays stress clean expressions
+.PHONY: sheet examples-pictures examples-speed points install all deps test solids test-examples fuzz lint demo gallery bench bench-rays stress clean expressions
 -include $(shell find build -name '*.d' 2>/dev/null)

@@ -7,6 +7,7 @@
 
 #include "base/file.h"
 
+#include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -86,12 +87,35 @@ static void bytes_do_not_depend_on_threads(void **state) {
     }
 }
 
+// A row of this picture lay in the shadow of its own patch: 32 where the rows above and below have
+// 58 and 52. The button is smooth there, so that each row is the mean of its neighbours.
+static void no_patch_shades_itself(void **state) {
+    (void)state;
+    if (!file_exists(CORPUS "eaglemode/Splitter.pov")) {
+        print_message("skipped: the scene is not here\n");
+        skip();
+    }
+    const char *picture =
+        render_with_qirender("smooth", CORPUS "eaglemode/Splitter.pov", "+W320 +H240");
+    Arena *arena = arena_create();
+    const Image *image = image_read(arena, picture);
+    size_t row = (size_t)image->width * (size_t)image->channels;
+    for (int y = 205; y < 219; y++)
+        for (int x = 105; x < 210; x++) {
+            size_t at = (size_t)y * row + (size_t)x * (size_t)image->channels;
+            float mean = 0.5f * (image->pixels[at - row] + image->pixels[at + row]);
+            assert_true(fabsf(image->pixels[at] - mean) < 3.0f / 255.0f);
+        }
+    arena_destroy(arena);
+}
+
 int main(void) {
     enum { COUNT = sizeof ROWS / sizeof *ROWS };
-    struct CMUnitTest tests[COUNT + 1];
+    struct CMUnitTest tests[COUNT + 2];
     for (int i = 0; i < COUNT; i++)
         tests[i] = (struct CMUnitTest){ROWS[i].name, facets_equal_povray, NULL, NULL,
                                        (void *)(uintptr_t)&ROWS[i]};
     tests[COUNT] = (struct CMUnitTest)cmocka_unit_test(bytes_do_not_depend_on_threads);
+    tests[COUNT + 1] = (struct CMUnitTest)cmocka_unit_test(no_patch_shades_itself);
     return cmocka_run_group_tests_name("pictures", tests, NULL, NULL);
 }

@@ -22,7 +22,7 @@
 
 // At most so many percent of the pixels may be off by more than a step of 8 bits. One of 1728
 // pixels is 0.06 %.
-static const double MOST_PERCENT = 0.5;
+static const double MOST_PERCENT = 0.1;
 static const char SIZE[] = "+W48 +H36 +FN16 File_Gamma=1.0 -A";
 
 static const char HEAD[] = "#version 3.7; global_settings { assumed_gamma 1 }\n"

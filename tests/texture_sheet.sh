@@ -17,7 +17,7 @@ mkdir -p "$folder"
 
 # FILE NAME KIND of each declaration. A name that stands for another has its kind.
 declarations() {
-    for file in textures metals golds woods stones1 stones2 stoneold glass skies stars finish; do
+    for file in textures metals golds woods stones1 stones2 stoneold glass glass_old skies stars finish; do
         tr -d '\r' <"$includes/$file.inc" | awk -v file="$file" '
             { gsub(/\/\/.*/, ""); gsub(/[={}]/, " & "); text = text " " $0 }
             END {
@@ -71,7 +71,7 @@ compare() {
         { echo "$file $name $kind failed"; return; }
     local notes=""
     grep -q "warning:" "$folder/$name.log" && notes=" with a warning"
-    grep -qw crand <(tr -d '\r' <"$includes/$file.inc") && [ "${CRAND:-}" ] && notes="$notes (crand)"
+
     local share
     share=$(idiff -fail 0.0041 -failpercent 0 "$folder/$name-povray.png" "$folder/$name.png" |
         awk '/pixels .*over 0.0041/ { gsub(/[(%)]/, " "); for (i = 1; i < NF; i++) if ($i == "pixels") print $(i + 1) }')

@@ -37,7 +37,9 @@ double stone_granite(Vec3 p, int generator) {
     double sum = 0.0, scale = 1.0;
     for (int i = 0; i < 6; i++, scale *= 2.0) {
         double n = noise_value(vec_scale(p, 4.0 * scale), generator);
-        double t = generator > 1 ? fmin(fabs(1.0 - 2.0 * n), 0.5) : fabs(0.5 - n);
+        double t = generator > 1 ? fabs(1.0 - 2.0 * n) : fabs(0.5 - n);
+        if (generator > 1 && t > 0.5)
+            t = 0.5;
         sum += t / scale;
     }
     return sum;

@@ -136,7 +136,7 @@ test: deps
 	@tests/run.sh $(TESTS)
 
 # The fuzzers, by clang; what of the library they need. tests/fuzz.sh says what they do.
-FUZZ_OBJ = $(patsubst %.c,build/fuzz/%.o,$(filter-out src/render/% src/bench/%,$(LIB_C))) \
+FUZZ_OBJ = $(patsubst %.c,build/fuzz/%.o,$(filter-out src/render/render.c src/bench/%,$(LIB_C))) \
            $(KERNEL_TEST:build/test/%=build/fuzz/%)
 FUZZ     = -std=c11 $(filter-out -fopenmp,$(BASE)) -w -O2 -g -fsanitize=fuzzer-no-link,address,undefined \
            -fsanitize=float-cast-overflow -fno-sanitize-recover=undefined,float-cast-overflow -DHOSTILE

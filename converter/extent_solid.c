@@ -88,7 +88,8 @@ static Box height_box(const HeightFieldShape *field, const HeightMap *map) {
 }
 
 static Box text_box(const TextShape *text) {
-    Box box = box_empty();
+    // Of blanks alone nothing is seen; POV-Ray's box of them is a point at the origin, made thick.
+    Box box = text->arc_count ? box_empty() : (Box){vec3(0, 0, 0), vec3(0, 0, 0)};
     for (uint32_t i = 0; i < text->arc_count * 3; i++)
         box = box_extend(box, vec3(text->arcs[2 * i], text->arcs[2 * i + 1], 0));
     return box_extend(box, vec3(box.high.x, box.high.y, text->thickness));

@@ -164,6 +164,21 @@ static void follows_copied_links(void **state) {
     assert_non_null(strstr(log, "loop.inc:1:1: error:"));
 }
 
+// Before: the box of a blank was not a number, and Circle_Text of shapes.inc failed at each of
+// them.
+static void blanks_have_a_box(void **state) {
+    (void)state;
+    const char *log;
+    write_scene("a.pov", HEAD "#declare T = text { ttf \"timrom.ttf\" \"  \" 1, 0 scale 2 }\n"
+                              "#debug concat(vstr(3, min_extent(T), \",\", 0, 3), \" \",\n"
+                              "              vstr(3, max_extent(T), \",\", 0, 3), \"\\n\")\n");
+    assert_int_equal(pov2qi(&log, "--check a.pov -GW"), 0);
+    for (char *p = (char *)(uintptr_t)log; *p; p++)
+        if (strncmp(p, "-0.000", 6) == 0)
+            memmove(p, p + 1, strlen(p));
+    assert_string_equal(log, "0.000,0.000,0.000 0.000,0.000,2.000\n");
+}
+
 static const char WRITER[] = HEAD
     "#fopen W \"a.txt\" write #write (W, 1, \",\", <1,2.5,3>, \"x\\ty\\n\", pi, 1e20) #fclose W\n"
     "#fopen W \"a.txt\" append #write (W, \"more\\n\") #fclose W\n"
@@ -261,11 +276,12 @@ int main(void) {
     if (!getcwd(project, sizeof project))
         abort();
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(table_of_real_scenes),  cmocka_unit_test(lists_as_text),
-        cmocka_unit_test(lists_as_json),         cmocka_unit_test(warns_once_a_place),
-        cmocka_unit_test(debug_equals_povray),   cmocka_unit_test(follows_copied_links),
-        cmocka_unit_test(writes_where_it_may),   cmocka_unit_test(stays_in_its_folder),
-        cmocka_unit_test(parses_through_a_file), cmocka_unit_test(reads_files_only),
+        cmocka_unit_test(table_of_real_scenes), cmocka_unit_test(lists_as_text),
+        cmocka_unit_test(lists_as_json),        cmocka_unit_test(warns_once_a_place),
+        cmocka_unit_test(debug_equals_povray),  cmocka_unit_test(follows_copied_links),
+        cmocka_unit_test(blanks_have_a_box),    cmocka_unit_test(writes_where_it_may),
+        cmocka_unit_test(stays_in_its_folder),  cmocka_unit_test(parses_through_a_file),
+        cmocka_unit_test(reads_files_only),
     };
     return cmocka_run_group_tests_name("pov2qi", tests, NULL, NULL);
 }

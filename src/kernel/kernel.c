@@ -7,11 +7,12 @@
 #include "kernel/leaf.h"
 #include "kernel/newton.h"
 #include "kernel/ray.h"
+#include "kernel/search.h"
 #include "kernel/simd.h"
 #include "patch/kernels.h"
 
-// Newton steps in single precision: two are enough for one step in double.
-enum { GUESS_STEPS = 2 };
+// Newton steps in single precision: as a rule one is enough for one step in double.
+enum { GUESS_STEPS = 1 };
 
 typedef struct {
     float near;
@@ -53,8 +54,10 @@ static void narrow(double scale, double shift, double rest, double middle, doubl
         *to = larger(high, *from);
 }
 
-static bool search_rest(Walk *walk, const Piece *piece, const LeafLanes *lanes, int lane, float k) {
-    BezierRect rect = piece->rect;
+// Not part of the loop that must stay in registers.
+__attribute__((noinline)) static bool search_rest(Walk *walk, const Piece *piece,
+                                                  const LeafLanes *lanes, int lane, float k) {
+    BezierRect rect = piece_rect(piece);
     double qz = (double)lanes->q[2][lane], pz = (double)lanes->p[2][lane];
     if (fabs(qz) > 0.0 && piece->rest_a < 2.0f && piece->rest_b < 2.0f) {
         double gx = (double)lanes->q[0][lane] / qz, gy = (double)lanes->q[1][lane] / qz;
@@ -63,12 +66,12 @@ static bool search_rest(Walk *walk, const Piece *piece, const LeafLanes *lanes, 
         narrow((double)piece->scale_b, (double)piece->shift_b, (double)piece->rest_b,
                (double)lanes->p[1][lane] - pz * gy, (double)k * fabs(gy), &rect.v0, &rect.v1);
     }
-    return root_search(&walk->ray, piece, rect, walk->query, walk_take, walk);
+    return search_rect(walk, piece, rect);
 }
 
 static inline float unit(float x) { return x < -1.0f ? -1.0f : x > 1.0f ? 1.0f : x; }
 
-// The piece's parameters where the ray meets it, to about six digits: Newton on the polynomial.
+// The piece's parameters where the ray meets it, to about four digits: Newton on the polynomial.
 // With g = q / qz the ray has x - gx z = x0, y - gy z = y0.
 static inline void guess(const Piece *piece, const LeafLanes *lanes, int lane, double *u,
                          double *v) {
@@ -81,7 +84,8 @@ static inline void guess(const Piece *piece, const LeafLanes *lanes, int lane, d
     const float *c = &piece->poly[0][0][0];
     // Powers 0 and 1 of a side by side, and 2 and 3.
     F8 c0 = f8_load(c), c1 = f8_load(c + 16), c2 = f8_load(c + 32), c3 = f8_load(c + 48);
-    F8 e0 = f8_load(c + 8), e1 = f8_load(c + 24), e2 = f8_load(c + 40), e3 = f8_load(c + 56);
+    F8 e0 = f8_load(c + 8), e1 = f8_load(c + 24), e2 = f8_load(c + 40),
+       e3 = f8_first_three(f8_load(c + 56)); // whole numbers lie there
     for (int i = 0; i < GUESS_STEPS; i++) {
         F8 bb = f8_all(b), b2 = bb * bb, twice = bb + bb, thrice = f8_all(3.0f) * b2;
         F8 r = (c0 + bb * c1) + b2 * (c2 + bb * c3), s = (e0 + bb * e1) + b2 * (e2 + bb * e3);
@@ -99,9 +103,9 @@ static inline void guess(const Piece *piece, const LeafLanes *lanes, int lane, d
         a = unit(a - (x * yb - y * xb) * part);
         b = unit(b - (y * xa - x * ya) * part);
     }
-    const BezierRect *r = &piece->rect;
-    *u = clamp(0.5 * (r->u0 + r->u1) + 0.5 * (r->u1 - r->u0) * (double)a, r->u0, r->u1);
-    *v = clamp(0.5 * (r->v0 + r->v1) + 0.5 * (r->v1 - r->v0) * (double)b, r->v0, r->v1);
+    const BezierRect r = piece_rect(piece);
+    *u = clamp(0.5 * (r.u0 + r.u1) + 0.5 * (r.u1 - r.u0) * (double)a, r.u0, r.u1);
+    *v = clamp(0.5 * (r.v0 + r.v1) + 0.5 * (r.v1 - r.v0) * (double)b, r.v0, r.v1);
 }
 
 static inline bool search_piece(Walk *walk, const Block *block, const LeafLanes *lanes, int lane,
@@ -180,7 +184,7 @@ static void visit_all(Walk *walk) {
         walk->patch = piece->patch;
         patch_ray_init(&walk->ray, &accel->patches[piece->patch], &walk->query->ray, walk->dir,
                        walk->t_per_s);
-        if (!root_search(&walk->ray, piece, piece->rect, walk->query, walk_take, walk))
+        if (!search_rect(walk, piece, piece_rect(piece)))
             return;
     }
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// From a guess to the only root of a piece, by Newton steps in double. See patch/root.c, where the
-// same is done for what is not known to be single; the certificate is the same.
+// From near the only root of a piece to that root, by Newton steps in double. The last correction
+// needs no new look: its Taylor rest (search.h) is part of the bound.
 #ifndef KERNEL_NEWTON_H
 #define KERNEL_NEWTON_H
 
@@ -56,11 +56,10 @@ static inline Newton newton_sharpen(Walk *walk, const Piece *piece, double u, do
     const PatchRay *ray = &walk->ray;
     Query *query = walk->query;
     // Up to a hair outside of the piece, where its bounds still hold: then neighbours agree.
-    const BezierRect *rect = &piece->rect;
-    double hair_u = PIECE_MARGIN * (rect->u1 - rect->u0),
-           hair_v = PIECE_MARGIN * (rect->v1 - rect->v0);
-    const double u0 = larger(rect->u0 - hair_u, 0.0), u1 = smaller(rect->u1 + hair_u, 1.0);
-    const double v0 = larger(rect->v0 - hair_v, 0.0), v1 = smaller(rect->v1 + hair_v, 1.0);
+    const BezierRect rect = piece_rect(piece);
+    double hair_u = PIECE_MARGIN * (rect.u1 - rect.u0), hair_v = PIECE_MARGIN * (rect.v1 - rect.v0);
+    const double u0 = larger(rect.u0 - hair_u, 0.0), u1 = smaller(rect.u1 + hair_u, 1.0);
+    const double v0 = larger(rect.v0 - hair_v, 0.0), v1 = smaller(rect.v1 + hair_v, 1.0);
     const double muu = (double)piece->muu, muv = (double)piece->muv, mvv = (double)piece->mvv;
     // What rounding leaves is as good as can be had.
     const double tolerance = larger(ray->patch->tolerance, 2.0 * ray->error);

@@ -8,7 +8,7 @@
 
 typedef struct {
     D4 origin, dir;             // tree space, where the ray enters the tree; |dir| = 1
-    float start[3], inverse[3]; // the same in single precision, 1 / dir
+    float start[4], inverse[4]; // the same in single precision, 1 / dir
     int near[3], far[3];        // which planes of a node are near: offsets in floats
     float s_min, s_max;
     float k;                // see leaf.h
@@ -29,7 +29,6 @@ static inline D4 d4_max(D4 a, D4 b) {
     return (D4)((more & (L4)a) | (~more & (L4)b));
 }
 static inline D4 d4_abs(D4 a) { return (D4)((L4)a & INT64_MAX); }
-static inline D4 d4_vec(Vec3 a) { return (D4){a.x, a.y, a.z, 0.0}; }
 
 static inline void ray_cut(KernelRay *ray, double t) {
     double s = t * ray->s_per_t - ray->s_base + (double)TREE_PAD;
@@ -40,7 +39,10 @@ static inline void ray_cut(KernelRay *ray, double t) {
 // nodes' boxes hold is inside.
 static inline RayEntry ray_begin(const Tree *tree, const Ray *ray, double t_min, double t_max,
                                  KernelRay *out) {
-    D4 dir = d4_vec(ray->dir), size = d4_abs(dir);
+    // Four numbers are read; the fourth lanes are never looked at.
+    D4 start = d4_load(&ray->org.x), dir = d4_load(&ray->org.z), size;
+    dir = __builtin_shufflevector(dir, dir, 1, 2, 3, 0);
+    size = d4_abs(dir);
     double largest = ray_larger(size[0], ray_larger(size[1], size[2]));
     if (tree->root == TREE_NONE || !(largest > 0.0) || !(t_min < t_max))
         return RAY_MISSES;
@@ -52,8 +54,8 @@ static inline RayEntry ray_begin(const Tree *tree, const Ray *ray, double t_min,
     L4 tiny = size < least;
     D4 d = (D4)((tiny & ((L4)least | ((L4)dir & INT64_MIN))) | (~tiny & (L4)dir));
     D4 inverse = d4_all(1.0) / d;
-    D4 o = (d4_vec(ray->org) - d4_vec(tree->center)) * d4_all(tree->scale);
-    D4 half = d4_vec(tree->half);
+    D4 o = (start - d4_load(&tree->center.x)) * d4_all(tree->scale);
+    D4 half = d4_load(&tree->half.x);
     D4 a = (-half - o) * inverse, b = (half - o) * inverse;
     D4 near = d4_min(a, b), far = d4_max(a, b), away = d4_abs(o);
     double entry = ray_larger(near[0], ray_larger(near[1], near[2]));
@@ -69,6 +71,7 @@ static inline RayEntry ray_begin(const Tree *tree, const Ray *ray, double t_min,
     double length = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]), short_by = 1.0 / length;
     out->unit = vec_scale(ray->dir, short_by);
     out->dir = d * d4_all(short_by);
+    F4 start_float, inverse_float;
     entry *= length;
     out->origin = o + d4_all(entry) * out->dir;
     out->s_per_t = length * tree->scale;
@@ -76,9 +79,11 @@ static inline RayEntry ray_begin(const Tree *tree, const Ray *ray, double t_min,
     double s_min = t_min * out->s_per_t - entry - (double)TREE_PAD;
     out->s_min = (float)(s_min > -4.0 ? s_min : -4.0);
     ray_cut(out, t_max);
+    start_float = __builtin_convertvector(out->origin, F4);
+    inverse_float = __builtin_convertvector(inverse * d4_all(length), F4);
+    memcpy(out->start, &start_float, sizeof start_float);
+    memcpy(out->inverse, &inverse_float, sizeof inverse_float);
     for (int axis = 0; axis < 3; axis++) {
-        out->start[axis] = (float)out->origin[axis];
-        out->inverse[axis] = (float)(inverse[axis] * length);
         int back = d[axis] < 0.0;
         out->near[axis] = TREE_WIDTH * (axis + (back ? 3 : 0));
         out->far[axis] = TREE_WIDTH * (axis + (back ? 0 : 3));

@@ -32,6 +32,8 @@ static inline F8 f8_pair(float low, float high) {
 }
 static inline F4 f8_low(F8 a) { return __builtin_shufflevector(a, a, 0, 1, 2, 3); }
 static inline F4 f8_high(F8 a) { return __builtin_shufflevector(a, a, 4, 5, 6, 7); }
+// The fourth and the eighth become 0.
+static inline F8 f8_first_three(F8 a) { return (F8)((I8)a & (I8){-1, -1, -1, 0, -1, -1, -1, 0}); }
 static inline D4 d4_load(const double *p) {
     D4 v;
     memcpy(&v, p, sizeof v);

@@ -36,8 +36,7 @@ static bool was_seen(Walk *walk, const Root *root) {
     return false;
 }
 
-bool walk_take(void *context, const Root *root) {
-    Walk *walk = context;
+bool walk_take(Walk *walk, const Root *root) {
     Query *query = walk->query;
     if (query->kind == QUERY_ALL && was_seen(walk, root))
         return true;

@@ -10,7 +10,6 @@
 #include "patch/quasi.h"
 
 #include <float.h>
-#include <string.h>
 
 // Tangents at a smaller angle than this (a sine) are not used to measure by.
 static const double LEAST_SINE = 0x1p-10;
@@ -286,7 +285,8 @@ static void cubic_poly(const Bezier *part, const PieceFrame *frame, Piece *piece
 static void taylor_poly(const Bezier *part, const PieceFrame *frame, Piece *piece) {
     BezierJet jet;
     bezier_eval2(part, 0.5, 0.5, &jet);
-    memset(piece->poly, 0, sizeof piece->poly);
+    for (int i = 0; i < 48; i++)
+        piece->poly[i / 12][i / 3 % 4][i % 3] = 0.0f;
     for (int k = 0; k < 3; k++) {
         Vec3 row = vec3(frame->row[k][0], frame->row[k][1], frame->row[k][2]);
         piece->poly[0][0][k] = to_float(vec_dot(row, jet.s) + frame->shift[k]);
@@ -342,14 +342,20 @@ void frame_to_lane(const PieceFrame *frame, const Bezier *part, const Tree *tree
     // The direction's coordinates err by 7 L w, the sum by 4 w of itself: in the factor above.
     block->steep[2][lane] =
         usable ? up(8.0 * w * (lengths[2] + sx * lengths[0] + sy * lengths[1])) : INFINITY;
-    piece->rest_a = piece->rest_b = INFINITY;
+    piece->rest_a = INFINITY;
+    piece->rest_b = INFINITY;
     if (!usable)
         return;
-    piece->scale_a = (float)(frame->half[0] / inflate[0]);
-    piece->scale_b = (float)(frame->half[1] / inflate[1]);
-    piece->shift_a = (float)frame->rest_shift[0];
-    piece->shift_b = (float)frame->rest_shift[1];
+    float scale[2], shift[2];
+    for (int k = 0; k < 2; k++) {
+        scale[k] = (float)(frame->half[k] / inflate[k]);
+        shift[k] = (float)frame->rest_shift[k];
+    }
+    piece->scale_a = scale[0];
+    piece->scale_b = scale[1];
+    piece->shift_a = shift[0];
+    piece->shift_b = shift[1];
     // Those are rounded to float, and so are the products with them.
-    piece->rest_a = up(frame->rest[0] + 0x1p-20 * (double)(piece->scale_a + fabsf(piece->shift_a)));
-    piece->rest_b = up(frame->rest[1] + 0x1p-20 * (double)(piece->scale_b + fabsf(piece->shift_b)));
+    piece->rest_a = up(frame->rest[0] + 0x1p-20 * (double)(scale[0] + fabsf(shift[0])));
+    piece->rest_b = up(frame->rest[1] + 0x1p-20 * (double)(scale[1] + fabsf(shift[1])));
 }

@@ -253,8 +253,8 @@ static void add_stats(PatchStats *to, const Query *query) {
 
 bool patchset_intersect(const PatchSet *set, const Ray *ray, double t_min, double t_max,
                         uint32_t mask, PatchStats *stats, PatchHit *hit) {
-    Query query = {
-        .ray = *ray, .t_min = t_min, .t_max = t_max, .mask = mask, .kind = QUERY_NEAREST};
+    Query query;
+    query_begin(&query, QUERY_NEAREST, ray, t_min, t_max, mask);
     ask(set, &query);
     add_stats(stats, &query);
     if (query.found)
@@ -299,7 +299,8 @@ bool patchset_intersect_leaving(const PatchSet *set, const Ray *ray, double t_ma
 
 bool patchset_occluded(const PatchSet *set, const Ray *ray, double t_min, double t_max,
                        uint32_t mask, PatchStats *stats) {
-    Query query = {.ray = *ray, .t_min = t_min, .t_max = t_max, .mask = mask, .kind = QUERY_ANY};
+    Query query;
+    query_begin(&query, QUERY_ANY, ray, t_min, t_max, mask);
     ask(set, &query);
     add_stats(stats, &query);
     return query.found;

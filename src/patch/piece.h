@@ -37,15 +37,51 @@ typedef struct {
 // poly[j][i] a^i b^j but for rounding (of cubic patches; of others up to second order), good for a
 // guess; and what holds strictly is
 //     |a - scale_a x - shift_a| <= rest_a    |b - scale_b y - shift_b| <= rest_b.
-typedef struct {
-    float poly[4][4][4]; // [power of b][power of a][x y z 0]
-    BezierRect rect;
-    float muu, muv, mvv; // bounds of the lengths of the second derivatives, patch's parameters
-    float scale_a, scale_b, shift_a, shift_b, rest_a, rest_b;
-    uint32_t patch, mask;
-    uint32_t unused[13];
+// The terms leave every fourth number free for the rest that is to be known: the rectangle (exact,
+// its sides are halvings) and bounds of the lengths of the second derivatives in the patch's
+// parameters.
+typedef union {
+    float poly[4][4][4]; // [power of b][power of a][x y z, something else]
+    struct {
+        float xyz0[3];
+        float u0;
+        float xyz1[3];
+        float u1;
+        float xyz2[3];
+        float v0;
+        float xyz3[3];
+        float v1;
+        float xyz4[3];
+        float muu;
+        float xyz5[3];
+        float muv;
+        float xyz6[3];
+        float mvv;
+        float xyz7[3];
+        float scale_a;
+        float xyz8[3];
+        float scale_b;
+        float xyz9[3];
+        float shift_a;
+        float xyz10[3];
+        float shift_b;
+        float xyz11[3];
+        float rest_a;
+        float xyz12[3];
+        float rest_b;
+        float xyz13[3];
+        float unused;
+        float xyz14[3];
+        uint32_t patch;
+        float xyz15[3];
+        uint32_t mask;
+    };
 } Piece;
-_Static_assert(sizeof(Piece) == 384, "six lines of cache");
+_Static_assert(sizeof(Piece) == 256, "four lines of cache");
+
+static inline BezierRect piece_rect(const Piece *piece) {
+    return (BezierRect){(double)piece->u0, (double)piece->u1, (double)piece->v0, (double)piece->v1};
+}
 
 // The frames of eight pieces side by side: frame = axis (X - center) + shift for X in tree units.
 // steep: with q the ray's direction in the frame, no two points of the piece lie on one such ray if

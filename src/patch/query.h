@@ -24,6 +24,18 @@ typedef struct {
     PatchStats stats;
 } Query;
 
+// All but best, sink and context, of which nobody knows before there is a hit.
+static inline void query_begin(Query *query, QueryKind kind, const Ray *ray, double t_min,
+                               double t_max, uint32_t mask) {
+    query->ray = *ray;
+    query->t_min = t_min;
+    query->t_max = t_max;
+    query->mask = mask;
+    query->kind = kind;
+    query->found = false;
+    query->stats = (PatchStats){0};
+}
+
 // Nothing more can change the answer.
 static inline bool query_done(const Query *query) {
     return query->kind == QUERY_ANY && query->found;

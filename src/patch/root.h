@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The crossings of a ray with one piece of a patch, found in double and certified: what the thick
-// parallelograms of accel.c leave over goes through here. Private to accel.c and root.c.
+// parallelograms of accel.c leave over goes through here. Private to accel.c and the kernels.
 #ifndef PATCH_ROOT_H
 #define PATCH_ROOT_H
 
@@ -44,13 +44,5 @@ static inline void root_set_errors(Root *root, Vec3 m1, Vec3 m2, double det) {
     root->error_u = 2.0 * root->hit.bound * vec_length(m1) / steep;
     root->error_v = 2.0 * root->hit.bound * vec_length(m2) / steep;
 }
-
-// Calls take for every crossing in rect, a part of the piece's rectangle, that lies within the
-// query's limits on t as they are at the time. take may lower query->t_max; it returns false to
-// end the search. Crossings outside the patch by less than its tolerance are taken too, with (u,v)
-// on the patch's edge; crossings on the edge of rect may be found by the neighbour as well.
-typedef bool (*RootTake)(void *context, const Root *root);
-bool root_search(const PatchRay *ray, const Piece *piece, BezierRect rect, Query *query,
-                 RootTake take, void *context);
 
 #endif

@@ -39,8 +39,9 @@ typedef struct {
     uint32_t root;        // as a child
     Box bounds;           // of all boxes, world space
     Vec3 center;
-    double scale; // a power of two
-    Vec3 half;    // half sizes of bounds in tree space, 4 TREE_PAD added
+    double scale;  // a power of two
+    Vec3 half;     // half sizes of bounds in tree space, 4 TREE_PAD added
+    double unused; // vectors are read as four numbers
 } Tree;
 
 // Boxes of no volume are welcome, empty boxes are not. A leaf gets at most leaf_size boxes.

@@ -29,8 +29,8 @@ typedef struct {
     WalkSeen seen[WALK_SEEN]; // the last ones, a ring
 } Walk;
 
-// Takes a crossing found in walk->piece (a RootTake). Of hits in the same place the one of the
-// first patch is kept, whatever the order they are found in.
-bool walk_take(void *context, const Root *root);
+// Takes a crossing found in walk->piece; false to end the walk. Of hits in the same place the one
+// of the first patch is kept, whatever the order they are found in.
+bool walk_take(Walk *walk, const Root *root);
 
 #endif

@@ -14,27 +14,17 @@
 // alpha |m1| + beta |m2| + alpha beta. (The contraction test of Krawczyk needs the same quantities
 // and asks for the same order of smallness.)
 //
-// Once a root is known to be single, Newton steps sharpen it; the residual at the end, with the
-// same Taylor rest, is the hit's certificate.
+// Once a root is known to be single, newton.h sharpens it; the residual at the end, with the same
+// Taylor rest, is the hit's certificate.
 //
 // Where singleness cannot be shown (silhouettes, folds, collapsed edges) qi_reduce_* decides.
-#include "patch/root.h"
+#ifndef KERNEL_SEARCH_H
+#define KERNEL_SEARCH_H
 
+#include "kernel/newton.h"
 #include "patch/qi.h"
 
-enum {
-    MAX_STEPS = 12,    // of an X that shrinks; a single root takes one or two
-    SHARPEN_STEPS = 6, // two, as a rule
-};
-// Of the normal, a sine: pictures have 16 bits.
-static const double NORMAL_ERROR = 1e-6;
-
-static inline double larger(double a, double b) { return a > b ? a : b; }
-static inline double smaller(double a, double b) { return a < b ? a : b; }
-static inline double clamp(double x, double low, double high) {
-    return x < low ? low : x > high ? high : x;
-}
-static inline double length1(Vec3 a) { return fabs(a.x) + fabs(a.y) + fabs(a.z); }
+enum { SEARCH_STEPS = 12 }; // of an X that shrinks; a single root takes one or two
 
 // The surface about one point, as the ray sees it.
 typedef struct {
@@ -46,7 +36,7 @@ typedef struct {
 
 static inline void look(const PatchRay *ray, double u, double v, Point *p) {
     Vec3 out[3];
-    piece_eval(ray->patch, u, v, out);
+    eval_patch(ray->patch, u, v, out);
     p->u = u;
     p->v = v;
     p->su = out[1];
@@ -111,29 +101,28 @@ static inline Span solve(double n, double w, double det, double error, double h)
 // ---- What cannot be shown single
 
 typedef struct {
-    const PatchRay *ray;
-    const Query *query;
-    RootTake take;
-    void *context;
+    Walk *walk;
     bool go_on;
 } Fallback;
 
 static void take_qi(void *context, const QiHit *hit) {
     Fallback *f = context;
-    if (!f->go_on || !query_in_range(f->query, hit->t))
+    const PatchRay *ray = &f->walk->ray;
+    if (!f->go_on || !query_in_range(f->walk->query, hit->t))
         return;
-    Root root = {.hit = {hit->t, hit->u, hit->v, hit->normal, hit->bound, f->ray->patch->def->id}};
+    Root root = {.hit = {hit->t, hit->u, hit->v, hit->normal, hit->bound, ray->patch->def->id}};
     Point p;
-    look(f->ray, hit->u, hit->v, &p);
+    look(ray, hit->u, hit->v, &p);
     double lu = vec_length(p.su), lv = vec_length(p.sv);
     // Flatter than this the two sides of a fold are one as far as the bound can tell.
     if (p.det * p.det > lu * lv * hit->bound * (lu + lv))
         root_set_errors(&root, p.m1, p.m2, p.det);
-    f->go_on = f->take(f->context, &root);
+    f->go_on = walk_take(f->walk, &root);
 }
 
-static bool search_qi(const PatchRay *ray, BezierRect rect, Query *query, RootTake take,
-                      void *context) {
+static bool search_qi(Walk *walk, BezierRect rect) {
+    const PatchRay *ray = &walk->ray;
+    Query *query = walk->query;
     const PatchDef *def = ray->patch->def;
     Bezier patch;
     bezier_init(&patch, (int)def->degree_u, (int)def->degree_v, def->points);
@@ -143,7 +132,7 @@ static bool search_qi(const PatchRay *ray, BezierRect rect, Query *query, RootTa
     QiQuery ask = {query->ray, query->t_min, t_max, ray->patch->tolerance, rect};
     QiStats stats = {0};
     QiHit hit;
-    Fallback f = {ray, query, take, context, true};
+    Fallback f = {walk, true};
     if (query->kind == QUERY_ALL)
         qi_reduce_all(&patch, &ask, &stats, take_qi, &f);
     else if (qi_reduce_nearest(&patch, &ask, &stats, &hit))
@@ -153,63 +142,13 @@ static bool search_qi(const PatchRay *ray, BezierRect rect, Query *query, RootTa
     return f.go_on;
 }
 
-// ---- A single root
-
-typedef enum { SHARPEN_NO, SHARPEN_TAKEN, SHARPEN_STOP } Sharpened;
-
-// From a point near the only root of X to that root. The last correction needs no new look: its
-// Taylor rest is part of the bound. SHARPEN_NO: there is none as near as the tolerance asks.
-static Sharpened sharpen(const PatchRay *ray, const Piece *piece, double u, double v, Query *query,
-                         RootTake take, void *context) {
-    // Up to a hair outside of the piece, where its bounds still hold: then neighbours agree.
-    const BezierRect *rect = &piece->rect;
-    double hair_u = PIECE_MARGIN * (rect->u1 - rect->u0),
-           hair_v = PIECE_MARGIN * (rect->v1 - rect->v0);
-    const double u0 = larger(rect->u0 - hair_u, 0.0), u1 = smaller(rect->u1 + hair_u, 1.0);
-    const double v0 = larger(rect->v0 - hair_v, 0.0), v1 = smaller(rect->v1 + hair_v, 1.0);
-    const double muu = (double)piece->muu, muv = (double)piece->muv, mvv = (double)piece->mvv;
-    // What rounding leaves is as good as can be had.
-    const double tolerance = larger(ray->patch->tolerance, 2.0 * ray->error);
-    for (int step = 0; step < SHARPEN_STEPS; step++) {
-        query->stats.newton++;
-        Point p;
-        look(ray, u, v, &p);
-        double steep = 1.0 / p.det;
-        double a = clamp(p.nu * steep, u0 - u, u1 - u);
-        double b = clamp(p.nv * steep, v0 - v, v1 - v);
-        if (!(fabs(p.det) > 0.0)) // also NaN
-            return SHARPEN_NO;
-        double turn_u = muu * fabs(a) + muv * fabs(b), turn_v = muv * fabs(a) + mvv * fabs(b);
-        double rest = 0.5 * (turn_u * fabs(a) + turn_v * fabs(b));
-        Vec3 off = vec_sub(vec_sub(p.r, vec_scale(p.su, a)), vec_scale(p.sv, b));
-        double s = -vec_dot(off, ray->dir);
-        Vec3 across = vec_madd(off, s, ray->dir), n = vec_cross(p.su, p.sv);
-        double distance = vec_length(across) + rest + ray->error, area = vec_length(n);
-        // Does the correction turn the normal? Then look there. Where it goes nowhere (a ray beside
-        // the patch's edge) the turn is 0.
-        double turn = turn_u * length1(p.sv) + turn_v * length1(p.su);
-        u = clamp(u + a, u0, u1);
-        v = clamp(v + b, v0, v1);
-        if (!(distance <= tolerance && turn <= NORMAL_ERROR * area))
-            continue;
-        Root root = {.hit = {.t = ray->t_base + s * ray->t_per_s,
-                             .u = u,
-                             .v = v,
-                             .normal = vec_scale(n, 1.0 / area),
-                             .bound = distance,
-                             .id = ray->patch->def->id}};
-        if (!query_in_range(query, root.hit.t))
-            return SHARPEN_TAKEN;
-        if (query->kind == QUERY_ALL)
-            root_set_errors(&root, p.m1, p.m2, p.det);
-        return take(context, &root) ? SHARPEN_TAKEN : SHARPEN_STOP;
-    }
-    return SHARPEN_NO;
-}
-
-bool root_search(const PatchRay *ray, const Piece *piece, BezierRect rect, Query *query,
-                 RootTake take, void *context) {
-    for (int step = 0; step < MAX_STEPS; step++) {
+// Finds every crossing in rect, a part of the piece's rectangle, and gives it to walk_take; false
+// to end the walk. Crossings outside the patch by less than its tolerance are taken too, with (u,v)
+// on the patch's edge; crossings on the edge of rect may be found by the neighbour as well.
+static bool search_rect(Walk *walk, const Piece *piece, BezierRect rect) {
+    const PatchRay *ray = &walk->ray;
+    Query *query = walk->query;
+    for (int step = 0; step < SEARCH_STEPS; step++) {
         // The rectangle's corners and its middle are rounded: half sizes that surely hold it.
         double hu = 0.5 * (rect.u1 - rect.u0) * (1.0 + 0x1p-50) + 0x1p-53;
         double hv = 0.5 * (rect.v1 - rect.v0) * (1.0 + 0x1p-50) + 0x1p-53;
@@ -222,12 +161,12 @@ bool root_search(const PatchRay *ray, const Piece *piece, BezierRect rect, Query
         if (a.low > a.high || b.low > b.high)
             return true;
         if (of.single) {
-            const BezierRect *r = &piece->rect;
-            double u = clamp(p.u + clamp(p.nu / p.det, a.low, a.high), r->u0, r->u1);
-            double v = clamp(p.v + clamp(p.nv / p.det, b.low, b.high), r->v0, r->v1);
-            Sharpened done = sharpen(ray, piece, u, v, query, take, context);
-            if (done != SHARPEN_NO)
-                return done == SHARPEN_TAKEN;
+            const BezierRect r = piece_rect(piece);
+            double u = clamp(p.u + clamp(p.nu / p.det, a.low, a.high), r.u0, r.u1);
+            double v = clamp(p.v + clamp(p.nv / p.det, b.low, b.high), r.v0, r.v1);
+            Newton done = newton_sharpen(walk, piece, u, v);
+            if (done != NEWTON_LOST)
+                return done == NEWTON_TAKEN;
         }
         double kept = (a.high - a.low) * (b.high - b.low) / (4.0 * hu * hv);
         rect = (BezierRect){clamp(p.u + a.low - 0x1p-53, rect.u0, rect.u1),
@@ -237,5 +176,7 @@ bool root_search(const PatchRay *ray, const Piece *piece, BezierRect rect, Query
         if (!(kept < 0.5))
             break;
     }
-    return search_qi(ray, rect, query, take, context);
+    return search_qi(walk, rect);
 }
+
+#endif

@@ -135,6 +135,11 @@ test: deps
 	@$(MAKE) --no-print-directory -j$$(nproc) all build/test/$(IMAGE_LIB) $(PROGRAMS:%=build/test/%) $(TESTS:%=build/test/%)
 	@tests/run.sh $(TESTS)
 
+# The language tested in itself, by pov2qi and by POV-Ray.
+test-povray: deps
+	@$(MAKE) --no-print-directory -j$$(nproc) build/test/test_language
+	@tests/run.sh test_language
+
 # The fuzzers, by clang; what of the library they need. tests/fuzz.sh says what they do.
 FUZZ_OBJ = $(patsubst %.c,build/fuzz/%.o,$(filter-out src/render/render.c src/bench/%,$(LIB_C))) \
            $(KERNEL_TEST:build/test/%=build/fuzz/%)
@@ -224,5 +229,5 @@ stress: deps
 	@$(MAKE) --no-print-directory -j$$(nproc) build/stress
 	@build/stress $(STRESS)
 
-.PHONY: sheet examples-pictures examples-speed points install all deps test solids test-examples fuzz lint demo gallery bench bench-rays stress clean expressions
+.PHONY: sheet examples-pictures examples-speed points install all deps test solids test-examples test-povray fuzz lint demo gallery bench bench-rays stress clean expressions
 -include $(shell find build -name '*.d' 2>/dev/null)

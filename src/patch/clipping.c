@@ -11,8 +11,12 @@
 static const double SHARE = 0.1;
 
 enum {
-    STACK = 128,     // halvings of both parameters down to rounding, and some
-    MAX_STEPS = 4096 // clips of one sub-patch: a ray in the surface meets all of it
+    STACK = 128, // halvings of both parameters down to rounding, and some
+    // Clips of one sub-patch: a ray in the surface meets all of it. Of a ray: then its other
+    // sub-patches get few.
+    MAX_STEPS = 4096,
+    MAX_WORK = 4096,
+    FEW_STEPS = 32
 };
 
 struct Clipping {
@@ -43,7 +47,9 @@ static bool clip_down(RefineWalk *walk, const SubPatch *sub, ClipNet *net, int *
             return false;
         }
         walk->query->stats.steps++;
-        if (++*steps > MAX_STEPS || !clip_step(net, ray->error, &kept))
+        walk->work++;
+        if (++*steps > (walk->work > MAX_WORK ? FEW_STEPS : MAX_STEPS) ||
+            !clip_step(net, ray->error, &kept))
             return false;
         idle = kept > CLIP_ENOUGH ? idle + 1 : 0;
     }
@@ -56,6 +62,8 @@ static bool clip_down(RefineWalk *walk, const SubPatch *sub, ClipNet *net, int *
 }
 
 static void search(RefineWalk *walk, const SubPatch *sub) {
+    if (walk->work > 4 * MAX_WORK && walk->query->found)
+        return;
     ClipNet whole, net;
     int steps = 0;
     clip_project(&walk->ray, sub, &net);

@@ -12,6 +12,7 @@
 enum {
     MAX_DEPTH = 16,        // halvings of a patch
     MAX_WEIGHT_DEPTH = 64, // of a rational patch, towards ends where weights grow
+    SUBS_A_PATCH = 1024,   // more are needed only where nothing makes a patch flat
     SUBS_IN_ALL = 1 << 20  // 600 MB; many patches are cut more coarsely
 };
 
@@ -92,21 +93,26 @@ static double thickness(const Bezier *s, double *size) {
 
 // The box of a sub-patch: of its control net, or where that is tighter of its QI net +- its bound.
 // Halving MAX_DEPTH times adds less than 7 bezier_rounding().
-static Box box_of(const Piece *p, double rounding, Vec3 center) {
+static Box local_box(const Piece *p, double rounding) {
     const Bezier *s = &p->s;
     Bezier net;
     if (p->rational) {
         Box box = bezier_bounds(s);
         Vec3 slack = vec3(8.0 * rounding, 8.0 * rounding, 8.0 * rounding);
-        return (Box){vec_add(vec_sub(box.low, slack), center),
-                     vec_add(vec_add(box.high, slack), center)};
+        return (Box){vec_sub(box.low, slack), vec_add(box.high, slack)};
     }
     quasi_net(s, &net);
     double error = 8.0 * rounding;
     Vec3 slack = vec3(error, error, error), e = vec_add(quasi_deviation_axes(s), slack);
     Box hull = bezier_bounds(s), thick = bezier_bounds(&net);
-    return (Box){vec_add(vec_max(vec_sub(hull.low, slack), vec_sub(thick.low, e)), center),
-                 vec_add(vec_min(vec_add(hull.high, slack), vec_add(thick.high, e)), center)};
+    return (Box){vec_max(vec_sub(hull.low, slack), vec_sub(thick.low, e)),
+                 vec_min(vec_add(hull.high, slack), vec_add(thick.high, e))};
+}
+
+static Box scene_box(const RefinePatch *patch, Box local) {
+    double unit = 1.0 / patch->scale;
+    return (Box){vec_madd(patch->center, unit, local.low),
+                 vec_madd(patch->center, unit, local.high)};
 }
 
 static void weight_range(const Piece *p, double *least, double *most) {
@@ -121,7 +127,8 @@ static void keep(Cutter *k, const Piece *p, BezierRect rect) {
     const Bezier *s = &p->s;
     double least, most;
     weight_range(p, &least, &most);
-    Cut cut = {rect, box_of(p, k->rounding, k->patch->center), k->numbers.count, least / most};
+    Cut cut = {rect, scene_box(k->patch, local_box(p, k->rounding)), k->numbers.count,
+               least / most};
     int count = bezier_count(s);
     for (int axis = 0; axis < 3; axis++) {
         for (int i = 0; i < count; i++)
@@ -201,13 +208,17 @@ static void cut_rect(Cutter *k, const Piece *p, BezierRect rect, int depth) {
     cut_rect(k, &high, b, depth + 1);
 }
 
+static Vec3 to_local(const RefinePatch *patch, Vec3 p) {
+    return vec_scale(vec_sub(p, patch->center), patch->scale);
+}
+
 static void cut_patch(Cutter *k) {
     const PatchDef *def = k->patch->def;
     Piece whole = {.rational = def->weights != NULL};
     whole.s.du = (int)def->degree_u;
     whole.s.dv = (int)def->degree_v;
     for (int i = 0; i < bezier_count(&whole.s); i++) {
-        whole.s.p[i] = vec_sub(def->points[i], k->patch->center);
+        whole.s.p[i] = to_local(k->patch, def->points[i]);
         if (whole.rational)
             whole.w[i] = def->weights[i];
     }
@@ -221,15 +232,25 @@ static void cut_patch(Cutter *k) {
     }
 }
 
+// The power of two that makes the largest extent about 1; 2^+-1000 at most.
+static double unit_of(Vec3 extent) {
+    double most = fmax(extent.x, fmax(extent.y, extent.z));
+    int exponent = 0;
+    if (most > 0.0 && isfinite(most))
+        frexp(most, &exponent);
+    return ldexp(1.0, exponent > 1000 ? -1000 : exponent < -1000 ? 1000 : -exponent);
+}
+
 static RefinePatch make_patch(const PatchDef *def) {
     Bezier whole;
     bezier_init(&whole, (int)def->degree_u, (int)def->degree_v, def->points);
     Box box = bezier_bounds(&whole);
     RefinePatch patch = {.def = def,
                          .center = vec_add(vec_scale(box.low, 0.5), vec_scale(box.high, 0.5)),
-                         .tolerance = def->tolerance};
+                         .scale = unit_of(vec_sub(box.high, box.low))};
+    patch.tolerance = def->tolerance * patch.scale;
     for (int i = 0; i < bezier_count(&whole); i++)
-        whole.p[i] = vec_sub(whole.p[i], patch.center);
+        whole.p[i] = to_local(&patch, whole.p[i]);
     // Cutting, and then a value of S from the sub-patch's net: 8 for the first, at most one more
     // for the second by the same count.
     patch.rounding = 9.0 * (def->weights ? RATIONAL_ROUNDING : 1.0) * bezier_rounding(&whole);
@@ -239,6 +260,7 @@ static RefinePatch make_patch(const PatchDef *def) {
 void refine_build(Arena *arena, const PatchDef *defs, size_t count, double share, Refined *out) {
     out->patches = ARENA_ARRAY(arena, RefinePatch, count);
     size_t limit = SUBS_IN_ALL / (count + 1) + 1;
+    limit = limit > SUBS_A_PATCH ? SUBS_A_PATCH : limit;
     ARRAY(Cutter) cutters = {0};
     for (size_t i = 0; i < count; i++) {
         out->patches[i] = make_patch(&defs[i]);
@@ -288,7 +310,8 @@ static void across(Vec3 dir, Vec3 *e1, Vec3 *e2) {
 // center; the origin's own 12 w A, t_base + s t_per_s 8 w A, the directions across 4 w A.
 static void set_ray(RefineWalk *walk, uint32_t number) {
     const RefinePatch *patch = &walk->refined->patches[number];
-    Vec3 away = vec_sub(walk->query->ray.org, patch->center);
+    Vec3 away = to_local(patch, walk->query->ray.org);
+    double t_per_s = walk->t_per_s / patch->scale;
     double shift = -vec_dot(away, walk->dir);
     double error =
         24.0 * 0x1p-53 * (fabs(away.x) + fabs(away.y) + fabs(away.z)) + 4.0 * patch->rounding;
@@ -298,8 +321,8 @@ static void set_ray(RefineWalk *walk, uint32_t number) {
                             .dir = walk->dir,
                             .e1 = walk->e1,
                             .e2 = walk->e2,
-                            .t_base = shift * walk->t_per_s,
-                            .t_per_s = walk->t_per_s,
+                            .t_base = shift * t_per_s,
+                            .t_per_s = t_per_s,
                             .error = error,
                             .tolerance = fmax(patch->tolerance, 4.0 * error)};
 }
@@ -338,6 +361,7 @@ void refine_query(const Refined *refined, Query *query, RefineSearch search) {
     walk.t_per_s = refined->tree.scale / ray.s_per_t;
     walk.patch = UINT32_MAX;
     walk.seen_count = 0;
+    walk.work = 0;
     Visit visit = {&walk, search};
     tree_walk(&refined->tree, &ray, visit_leaf, &visit);
 }
@@ -412,7 +436,7 @@ static bool seen_before(RefineWalk *walk, const PatchHit *hit, const Vec3 at[3])
     double steep = fabs(vec_dot(vec_cross(at[1], at[2]), walk->dir));
     double slope_u = steep / vec_length(vec_cross(walk->dir, at[2]));
     double slope_v = steep / vec_length(vec_cross(at[1], walk->dir));
-    double reach = 2.0 * (hit->bound + walk->ray.tolerance);
+    double reach = 2.0 * (hit->bound * walk->ray.patch->scale + walk->ray.tolerance);
     double t = hit->t, reach_t = reach * walk->ray.t_per_s;
     double reach_u = reach / slope_u, reach_v = reach / slope_v;
     uint64_t count = walk->seen_count < REFINE_SEEN ? walk->seen_count : REFINE_SEEN;
@@ -460,6 +484,7 @@ void refine_report(RefineWalk *walk, const SubPatch *sub, double u, double v) {
     at[2] = vec_scale(at[2], 1.0 / height);
     // Two roundings of each parameter. Weights that differ by powers of ten make that count.
     hit.bound += 0x1p-52 * (vec_length(at[1]) + vec_length(at[2]));
+    hit.bound /= ray->patch->scale;
     if (query->kind != QUERY_ALL || !seen_before(walk, &hit, at))
         query_take(query, &hit);
 }
@@ -474,6 +499,8 @@ void refine_take(RefineWalk *walk, const PatchHit *hit) {
         Vec3 at[3];
         bezier_init(&whole, (int)def->degree_u, (int)def->degree_v, def->points);
         rational_eval(&whole, def->weights, hit->u, hit->v, at);
+        for (int k = 1; k < 3; k++)
+            at[k] = vec_scale(at[k], walk->ray.patch->scale);
         if (seen_before(walk, hit, at))
             return;
     }

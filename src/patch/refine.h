@@ -3,8 +3,9 @@
 // lie in one tree (Sweeney and Bartels 1986; Martin, Cohen, Fish and Shirley 2000). A sub-patch
 // keeps its own control net. And what both do with a hit.
 //
-// All that is local counts from the patch's center, so that rounding is relative to the patch and
-// not to its place.
+// All that is local counts from the patch's center, in units that make the patch about as large as
+// 1 (a power of two, so that no bit changes): no product leaves the range of numbers, and rounding
+// is relative to the patch and not to its place.
 #ifndef PATCH_REFINE_H
 #define PATCH_REFINE_H
 
@@ -17,9 +18,10 @@
 
 typedef struct {
     const PatchDef *def;
-    Vec3 center;
-    double rounding;  // of a coordinate of S
-    double tolerance; // scene units
+    Vec3 center;     // scene units
+    double scale;    // local units = scene units * scale
+    double rounding; // of a coordinate of S; local units, as the next
+    double tolerance;
 } RefinePatch;
 
 typedef struct {
@@ -41,9 +43,10 @@ typedef struct {
 // at most about a million sub-patches in all. Keeps pointers into defs.
 void refine_build(Arena *arena, const PatchDef *defs, size_t count, double share, Refined *out);
 
-// A ray as one patch sees it: points org + s dir about the patch's center, org being the ray's
-// nearest point to it, t = t_base + s t_per_s; and two directions across it (Efremov, Havran and
-// Seidel 2005: of unit length and at right angles, so that distances keep their meaning).
+// A ray as one patch sees it, in its units: points org + s dir about the patch's center, org being
+// the ray's nearest point to it, t = t_base + s t_per_s; and two directions across it (Efremov,
+// Havran and Seidel 2005: of unit length and at right angles, so that distances keep their
+// meaning).
 typedef struct {
     const RefinePatch *patch;
     Vec3 org, dir, e1, e2;
@@ -67,6 +70,7 @@ typedef struct {
         double t, u, v, reach_t, reach_u, reach_v;
     } seen[REFINE_SEEN]; // hits reported to QUERY_ALL: one root can be met by two sub-patches
     uint64_t seen_count;
+    int work; // clips so far
 } RefineWalk;
 
 // Calls search for each sub-patch whose box the ray meets, from near to far, until query_done().

@@ -224,10 +224,10 @@ bench: deps
 bench-rays: build/bench_rays
 	@build/bench_rays
 
-# Minutes: 1e8 rays at all extremes, judged by an exact oracle; STRESS="--rays 1e6 --case cusp" for less.
+# Rays at all extremes, judged by an exact oracle; STRESS="--rays 1e6 --case cusp" for less.
 stress: deps
 	@$(MAKE) --no-print-directory -j$$(nproc) build/stress
-	@build/stress $(STRESS)
+	@tests/stress.sh $(STRESS)
 
 .PHONY: sheet examples-pictures examples-speed points install all deps test solids test-examples test-povray fuzz lint demo gallery bench bench-rays stress clean expressions
 -include $(shell find build -name '*.d' 2>/dev/null)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// An independent judge of ray/patch crossings, in long double: plain halving with the convex hull
-// of the control points, then Newton. Shares no code with src/patch. And the patches tests use.
+// Points of one patch in long double, its crossings by ray_oracle.h, and the patches tests use.
+// Shares no code with src/patch.
 #ifndef TESTS_PATCH_ORACLE_H
 #define TESTS_PATCH_ORACLE_H
 

@@ -12,7 +12,7 @@
 #include <string.h>
 #include <time.h>
 
-enum { METHODS = METHOD_COUNT, BUCKETS = 40 * 8, SHOWN = 4 };
+enum { METHODS = METHOD_COUNT, BUCKETS = 40 * 8, SHOWN = 4, MOST_TRIANGLES = 1000 };
 
 typedef struct {
     uint64_t rays, hits, open, verdict[STRESS_VERDICTS];
@@ -265,11 +265,12 @@ static void open_stage(Stage *stage, bool all_methods) {
             continue;
         bool plain = method == METHOD_QI_PAPER || stress_is_triangles((PatchMethod)method);
         if ((method == METHOD_TESSELLATION && embree_missing()) ||
-            (plain && stage->scene.defs[0].weights))
+            (plain && (stage->scene.defs[0].weights || stage->scene.count > MOST_TRIANGLES)))
             continue;
         PatchSetOptions options = patchset_options_default();
         options.method = (PatchMethod)method;
-        options.tolerance = stage->which->tolerance;
+        // Triangles can't be had at 1e-9.
+        options.tolerance = method == METHOD_TESSELLATION ? 1e-3 : stage->which->tolerance;
         PatchSet *set = stage->sets[method] = patchset_create(&options);
         for (int n = 0; n < stage->scene.count; n++)
             patchset_add(set, &stage->scene.defs[n]);
@@ -360,6 +361,44 @@ static void report(const StressOptions *options, const Tally *tallies, int metho
             print_row(stress_cases[n].name, &tallies[n * METHODS + method]);
 }
 
+// One cell of the matrix: what failed, by its letter, in so many of the rays.
+static void print_cell(const Tally *t) {
+    static const char letters[STRESS_VERDICTS] = {' ', 'm', 'f', 'o', 'b', 'l', 't', 'd', 'n'};
+    if (!t->rays) {
+        printf(" - |");
+        return;
+    }
+    bool any = false;
+    for (int k = STRESS_FINE + 1; k < STRESS_VERDICTS; k++) {
+        if (t->verdict[k])
+            printf(" %.2g%c", (double)t->verdict[k] * 1e6 / (double)t->rays, letters[k]);
+        any |= t->verdict[k] > 0;
+    }
+    printf(any ? " |" : " 0 |");
+}
+
+// All methods side by side: failures in a million rays.
+static void print_matrix(const StressOptions *options, const Tally *tallies) {
+    printf(
+        "\nfailures in a million rays: m missed, f false, o over its bound, b behind a crossing, "
+        "l lost, t twice, d any and nearest differ, n NaN\n\n| case | rays of qi |");
+    for (int method = 0; method < METHODS; method++)
+        printf(" %s |", patch_method_name((PatchMethod)method));
+    printf("\n|---|---|");
+    for (int method = 0; method < METHODS; method++)
+        printf("---|");
+    printf("\n");
+    for (int n = 0; n < stress_case_count; n++) {
+        const Tally *row = &tallies[n * METHODS];
+        if (!wants(options->only_case, stress_cases[n].name))
+            continue;
+        printf("| %s | %.3g |", stress_cases[n].name, (double)row[METHOD_QI].rays);
+        for (int method = 0; method < METHODS; method++)
+            print_cell(&row[method]);
+        printf("\n");
+    }
+}
+
 static double share_of(const StressOptions *options, const StressCase *which) {
     double sum = 0.0;
     for (int n = 0; n < stress_case_count; n++)
@@ -395,6 +434,8 @@ uint64_t stress_run(const StressOptions *options) {
     for (int method = 0; method < METHODS && options->ray < 0; method++)
         if (wants(options->only_method, patch_method_name((PatchMethod)method)))
             report(options, tallies, method);
+    if (options->ray < 0 && !options->only_method)
+        print_matrix(options, tallies);
     printf("\nseed %llu, %s, %d threads, %.0f s: %llu failures of qi\n",
            (unsigned long long)options->seed, patch_isa_name(), omp_get_max_threads(),
            (now() - start) * 1e-9, (unsigned long long)failures);

@@ -135,8 +135,6 @@ static bool parse_number(Converter *cv, FinishNode *node, int code) {
     }
     next_token(cv);
     *to = number(cv);
-    if (code == KW_caustics)
-        node->caustics *= 45.0F; // the unit that the renderer expects
     return true;
 }
 

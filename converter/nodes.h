@@ -141,7 +141,8 @@ void parse_image_options(Converter *cv, Picture *picture, float *amount); // amo
 
 typedef struct {
     Finish finish;
-    float ior, caustics; // old places of the interior's values; < 0: not given
+    float ior, caustics; // old places of the interior's values; < 0: not given. POV-Ray takes these
+                         // caustics as they are, not 45 times as an interior's
     float refraction;    // 1: none
     const Gap *gaps;
 } FinishNode;

@@ -221,6 +221,10 @@ static const TextureRow TEXTURES[] = {
      "texture { #declare A = texture { pigment { rgb x } } texture { pigment { bozo color_map { "
      "[0.4 rgbt 1] [0.5 rgb z] } scale 0.3 } finish { reflection 0.2 } } spherical texture_map "
      "{ [0.2 A] [0.5 A pigment { rgb y }] } scale 3 no_bump_scale }"},
+    // Here the shadow was too bright: caustics of a finish are not 45 times what is written.
+    {"",
+     "pigment { rgbf <0.3,0.8,0.5,0.8> } finish { ior 1.3 caustics 1.5 } } plane { z, 3 pigment { "
+     "checker rgb 1 rgb 0.6 }"},
     {"",
      "texture { pigment { rgbt <0.8,0.9,1,0.7> } normal { bumps 0.4 } } interior { caustics 0.6 "
      "ior 1.2 } } plane { z, 3 pigment { checker rgb 1 rgb 0.6 }"},

@@ -178,6 +178,10 @@ demo: deps
 	@$(MAKE) --no-print-directory -j$$(nproc) all
 	@tests/demo.sh
 
+bench-parse: deps
+	@$(MAKE) --no-print-directory build/pov2qi
+	@tests/bench_parse.sh
+
 expressions: deps
 	@$(MAKE) --no-print-directory -j$$(nproc) build/test/test_expressions
 	@QIPOV_EXPRESSIONS=20000 ASAN_OPTIONS=detect_leaks=0 build/test/test_expressions
@@ -229,5 +233,5 @@ stress: deps
 	@$(MAKE) --no-print-directory -j$$(nproc) build/stress
 	@tests/stress.sh $(STRESS)
 
-.PHONY: sheet examples-pictures examples-speed points install all deps test solids test-examples test-povray fuzz lint demo gallery bench bench-rays stress clean expressions
+.PHONY: sheet examples-pictures examples-speed points install all deps test solids test-examples test-povray fuzz lint demo gallery bench bench-rays stress clean expressions bench-parse
 -include $(shell find build -name '*.d' 2>/dev/null)

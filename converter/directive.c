@@ -64,6 +64,8 @@ static Place target_place(Converter *cv, const Token *name, bool local) {
 }
 
 static void run_declare(Converter *cv, bool local) {
+    if (quick_declare(cv, local))
+        return;
     bool held = hold_directives(cv);
     Deprecation deprecation = parse_deprecation(cv);
     const Token *name = expect_name(cv);

@@ -280,13 +280,13 @@ int parse_add(Converter *cv, double e[5], int want) {
     return width;
 }
 
-static bool is_comparison(int code) {
+bool is_comparison(int code) {
     return code == '<' || code == '>' || code == '=' || code == TOK_LE || code == TOK_GE ||
            code == TOK_NE;
 }
 
 // Exact for < and >, with EPSILON for the others.
-static bool compare(int code, double a, double b) {
+bool compare_floats(int code, double a, double b) {
     bool equal = !is_true(a - b);
     switch (code) {
     case '<':
@@ -312,7 +312,7 @@ static int string_relation(Converter *cv, double e[5], int want) {
         die_expected(cv, "string comparison operator");
     next_token(cv);
     int order = string_compare(a, parse_string(cv));
-    return fill(e, compare(code, order, 0), want);
+    return fill(e, compare_floats(code, order, 0), want);
 }
 
 static int relation(Converter *cv, double e[5], int want) {
@@ -331,7 +331,7 @@ static int relation(Converter *cv, double e[5], int want) {
         other_width = parse_add(cv, other, other_width);
         promote(e, &width, other_width);
         for (int i = 0; i < width; i++)
-            e[i] = compare(code, e[i], other[i]);
+            e[i] = compare_floats(code, e[i], other[i]);
     }
     return width;
 }
@@ -385,6 +385,8 @@ _Noreturn static void die_width(Converter *cv, const Token *start, int want, int
 
 double parse_float(Converter *cv) {
     double e[5] = {0};
+    if (quick_float(cv, e))
+        return e[0];
     const Token *start = peek_token(cv);
     int width = parse_add(cv, e, 1);
     if (width > 1)
@@ -416,6 +418,8 @@ Vec2 parse_uv(Converter *cv) {
 
 Vec3 parse_vector(Converter *cv) {
     double e[5] = {0};
+    if (quick_vector(cv, e))
+        return vec3(e[0], e[1], e[2]);
     parse_components(cv, e, 3);
     return vec3(e[0], e[1], e[2]);
 }

@@ -106,6 +106,15 @@ int parse_add(Converter *cv, double e[5], int want);
 int parse_full(Converter *cv, double e[5], int want);
 void promote(double e[5], int *width, int to);
 
+bool is_comparison(int code);
+bool compare_floats(int code, double a, double b);
+
+// quick.c: each takes what it reads, or nothing and is false: then the usual way is to be gone.
+bool quick_float(Converter *cv, double *out);     // ADD of floats alone
+bool quick_vector(Converter *cv, double out[3]);  // < ADD , ADD , ADD >
+bool quick_condition(Converter *cv, double *out); // ( FULL ) of floats alone
+bool quick_declare(Converter *cv, bool local);    // after #declare: a float that gets a float
+
 // expr_call.c: the built-in functions. True if the next token is one; then e and *width are set.
 bool parse_call(Converter *cv, double e[5], int *width, int want);
 bool is_number_keyword(int code); // begins a float of its own or a float function

@@ -4,7 +4,6 @@
 // there, not before what stands in front of it has run.
 #include "converter/language.h"
 
-#include <ctype.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -67,6 +66,12 @@ static void skip_line_end(Lexer *lx) {
     lx->line_start = lx->p;
 }
 
+// Of ASCII, whatever the locale.
+static bool is_digit(char c) { return c >= '0' && c <= '9'; }
+static bool is_letter(char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
+}
+static bool is_blank(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
 static bool is_line_end(char c) { return c == '\n' || c == '\r'; }
 
 // Comments of this kind nest.
@@ -93,12 +98,34 @@ static void skip_block_comment(Lexer *lx) {
     add_error(lx, start, "This comment never ends: no closing */ (they nest)");
 }
 
+// A decimal without an exponent whose digits make a whole number below 2^53, over a power of ten
+// below 10^23: both are exact, so that their quotient is rounded once and is what strtod gives.
+static bool short_number(const char *start, const char *end, double *out) {
+    static const double powers[] = {1e0, 1e1, 1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
+                                    1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15};
+    uint64_t digits = 0;
+    int count = 0, places = -1;
+    for (const char *p = start; p < end; p++) {
+        if (*p == '.') {
+            places = 0;
+            continue;
+        }
+        digits = digits * 10 + (uint64_t)(*p - '0');
+        count++;
+        places += places >= 0;
+    }
+    if (count > 15)
+        return false;
+    *out = places > 0 ? (double)digits / powers[places] : (double)digits;
+    return true;
+}
+
 // digits [. digits] [e [sign] digits]; "5.", ".5" and "1e" are numbers too.
 static void read_number(Lexer *lx) {
     static const char extra_period[] = "Unexpected additional '.' in floating-point number";
     const char *start = lx->p, *p = start;
     bool period = false;
-    for (; p < lx->end && (isdigit((unsigned char)*p) || *p == '.'); p++) {
+    for (; p < lx->end && (is_digit(*p) || *p == '.'); p++) {
         if (*p == '.' && period) {
             add_error(lx, p, extra_period);
             return;
@@ -110,7 +137,7 @@ static void read_number(Lexer *lx) {
         p++;
         if (p < lx->end && (*p == '+' || *p == '-'))
             p++;
-        while (p < lx->end && isdigit((unsigned char)*p))
+        while (p < lx->end && is_digit(*p))
             p++;
         if (p < lx->end && *p == '.') {
             add_error(lx, p, extra_period);
@@ -121,13 +148,16 @@ static void read_number(Lexer *lx) {
     bool hexadecimal = mantissa - start == 1 && *start == '0' && mantissa < lx->end &&
                        (*mantissa == 'x' || *mantissa == 'X');
     Token *token = add_token(lx, TOK_NUMBER, start);
-    token->number = hexadecimal ? 0 : strtod(start, NULL);
+    if (hexadecimal)
+        token->number = 0;
+    else if (p != mantissa || !short_number(start, mantissa, &token->number))
+        token->number = strtod(start, NULL);
     lx->p = p;
 }
 
 static void read_word(Lexer *lx) {
     const char *start = lx->p, *p = start;
-    while (p < lx->end && (isalnum((unsigned char)*p) || *p == '_'))
+    while (p < lx->end && (is_letter(*p) || is_digit(*p)))
         p++;
     size_t length = (size_t)(p - start);
     if (length > MAX_IDENTIFIER) {
@@ -184,14 +214,13 @@ static void read_string(Lexer *lx) {
 }
 
 static void read_symbol(Lexer *lx) {
-    static const char single[] = "{}()[]<>,;:.+-*/=!?&|#@`\\$^%~'";
     const char *start = lx->p;
     unsigned char c = (unsigned char)*start;
     char next = start + 1 < lx->end ? start[1] : '\0';
     if (next == '=' && (c == '<' || c == '>' || c == '!')) {
         add_token(lx, c == '<' ? TOK_LE : c == '>' ? TOK_GE : TOK_NE, start);
         lx->p += 2;
-    } else if (c < 128 && c && strchr(single, c)) {
+    } else if (c > ' ' && c < 127) { // letters, digits and quotes have been seen to
         add_token(lx, c, start);
         lx->p++;
     } else {
@@ -208,16 +237,16 @@ static void read_token(Lexer *lx) {
     char c = lx->p[0], next = lx->p + 1 < lx->end ? lx->p[1] : '\0';
     if (is_line_end(c)) {
         skip_line_end(lx);
-    } else if (isspace((unsigned char)c) || c == '\0' || c == 0x1A) {
+    } else if (is_blank(c) || c == '\0' || c == 0x1A) {
         lx->p++;
     } else if (c == '/' && next == '/') {
         while (lx->p < lx->end && !is_line_end(*lx->p))
             lx->p++;
     } else if (c == '/' && next == '*') {
         skip_block_comment(lx);
-    } else if (isdigit((unsigned char)c) || (c == '.' && isdigit((unsigned char)next))) {
+    } else if (is_digit(c) || (c == '.' && is_digit(next))) {
         read_number(lx);
-    } else if (isalpha((unsigned char)c) || c == '_') {
+    } else if (is_letter(c)) {
         read_word(lx);
     } else if (c == '"') {
         read_string(lx);
@@ -237,8 +266,7 @@ TokenList lexer_tokenize(Converter *cv, const Source *source) {
         read_token(&lx);
     add_token(&lx, TOK_EOF, lx.p);
     TokenList list = {.count = lx.tokens.count};
-    list.items = arena_copy(cv->arena, lx.tokens.items, lx.tokens.count * sizeof(Token));
-    array_free(&lx.tokens);
+    list.items = arena_adopt(cv->arena, lx.tokens.items, lx.tokens.count * sizeof(Token));
     return list;
 }
 

@@ -91,6 +91,9 @@ static void skip_to_end(Converter *cv, const Token *opener) { skip_block(cv, ope
 // ---- #if --------------------------------------------------------------------------------------
 
 static double condition_value(Converter *cv, const Token *word) {
+    double quick;
+    if (quick_condition(cv, &quick))
+        return quick;
     bool held = hold_directives(cv);
     double v = full_in_parentheses(cv, word->text);
     restore_directives(cv, held);

@@ -105,6 +105,24 @@ void *arena_copy(Arena *arena, const void *data, size_t size) {
     return p;
 }
 
+void *arena_adopt(Arena *arena, void *heap, size_t size) {
+    if (!heap || size == 0) {
+        free(heap);
+        return arena_alloc(arena, 0);
+    }
+    Block *b = calloc(1, sizeof *b);
+    void *fitted = realloc(heap, size); // gives back what the array had in reserve
+    if (!b || !fitted)
+        die("out of memory (%zu bytes wanted)", size);
+    *b = (Block){.size = size, .used = size, .data = fitted};
+    // Behind the block that is being filled.
+    Block **place = arena->blocks ? &arena->blocks->next : &arena->blocks;
+    b->next = *place;
+    *place = b;
+    arena->bytes += size;
+    return fitted;
+}
+
 char *arena_strdup(Arena *arena, const char *text) {
     return arena_copy(arena, text, strlen(text) + 1);
 }

@@ -15,6 +15,9 @@ void *arena_alloc(Arena *arena, size_t size);
 // count * size bytes with the product checked.
 void *arena_array(Arena *arena, size_t count, size_t size);
 void *arena_copy(Arena *arena, const void *data, size_t size);
+// Takes over what is in the heap (of realloc and its like; NULL is nothing), of size bytes, which
+// it returns: large arrays need no second copy.
+void *arena_adopt(Arena *arena, void *heap, size_t size);
 char *arena_strdup(Arena *arena, const char *text);
 char *arena_printf(Arena *arena, const char *format, ...) __attribute__((format(printf, 2, 3)));
 size_t arena_bytes(const Arena *arena); // handed out so far

@@ -26,6 +26,7 @@ static Lexed lex_bytes(const char *text, size_t size, bool scene) {
     Lexed l = {.arena = arena_create()};
     l.cv = (Converter){.arena = l.arena, .version = 370};
     l.cv.language = ARENA_NEW(l.arena, Language);
+    l.cv.language->limits[LIMIT_STRING] = 1000;
     char *copy = arena_alloc(l.arena, size + 1);
     memcpy(copy, text, size);
     Source *source = ARENA_NEW(l.arena, Source);

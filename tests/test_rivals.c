@@ -73,7 +73,7 @@ static void check_hit(const PatchDef *def, const Ray *ray, const PatchHit *hit, 
         fail_msg("off by %g, bound %g, allowed %g", off, hit->bound, most);
     Vec3 jet[3];
     ray_oracle_jet(def, hit->u, hit->v, jet);
-    Vec3 n = vec_normalize(vec_cross(jet[1], jet[2]));
+    Vec3 n = vec_normalize(vec_cross(vec_normalize(jet[1]), vec_normalize(jet[2])));
     assert_true(vec_length(vec_sub(n, hit->normal)) < 1e-6);
 }
 
@@ -146,9 +146,10 @@ static void random_patches(void **state) {
 // The same patch at any size and place: the same answers.
 static void scales(void **state) {
     (void)state;
-    static const double scale[] = {1e-9, 1e-4, 1.0, 1e4, 1e9}, place[] = {0, 1e3};
+    // 1e120: the normal was not a number, its length being a square of products.
+    static const double scale[] = {1e-120, 1e-9, 1e-4, 1.0, 1e4, 1e9, 1e120}, place[] = {0, 1e3};
     for (int m = 0; m < RIVALS; m++) {
-        for (int k = 0; k < 10; k++) {
+        for (int k = 0; k < 14; k++) {
             Bezier patch;
             teapot_body(&patch);
             double by = scale[k / 2], away = place[k % 2] * by;

@@ -4,6 +4,7 @@
 #   make test    install what is missing, build, run all tests (AddressSanitizer, UBSan)
 #   make test-examples  read every scene that POV-Ray's distribution has, as POV-Ray does
 #   make install  to PREFIX (/usr/local), below DESTDIR
+#   make report   what accuracy costs: curves, tables and maps as a page (minutes)
 #   make gallery the pictures of README; make bench its table of speed; make deps lint clean
 MAKEFLAGS += --no-builtin-rules
 .DELETE_ON_ERROR:
@@ -11,6 +12,7 @@ MAKEFLAGS += --no-builtin-rules
 
 PACKAGES = gcc g++ pkg-config povray povray-includes povray-examples libopenimageio-dev \
            openimageio-tools libpng-dev libfreetype-dev libcmocka-dev libjansson-dev
+REPORT_PACKAGES = gnuplot-nox
 LINT_PACKAGES = clang-format clang-tidy cppcheck
 
 CC  ?= gcc
@@ -132,6 +134,7 @@ deps:
 	@tests/deps.sh $(PACKAGES)
 
 test: deps
+	@tests/deps.sh $(REPORT_PACKAGES)
 	@$(MAKE) --no-print-directory -j$$(nproc) all build/test/$(IMAGE_LIB) $(PROGRAMS:%=build/test/%) $(TESTS:%=build/test/%)
 	@tests/run.sh $(TESTS)
 
@@ -225,6 +228,15 @@ bench: deps
 	@$(MAKE) --no-print-directory -j$$(nproc) all
 	@tests/bench.sh
 
+# The trade of speed against accuracy: a page in build/report. The scenes that are there are measured.
+REPORT_SCENES = /usr/share/doc/povray/examples/advanced/teapot/teapot.pov scenes/shells/shells.pov \
+    scenes/dunes/dunes.pov $(wildcard ../shared/corpus/postit/postit.pov ../shared/corpus/fmunoz/fruit_only.pov)
+report: deps
+	@tests/deps.sh $(REPORT_PACKAGES)
+	@$(MAKE) --no-print-directory -j$$(nproc) all
+	@mkdir -p build
+	@build/qibench sweep --html build/report $(REPORT_SCENES)
+
 bench-rays: build/bench_rays
 	@build/bench_rays
 
@@ -233,5 +245,5 @@ stress: deps
 	@$(MAKE) --no-print-directory -j$$(nproc) build/stress
 	@tests/stress.sh $(STRESS)
 
-.PHONY: sheet examples-pictures examples-speed points install all deps test solids test-examples test-povray fuzz lint demo gallery bench bench-rays stress clean expressions bench-parse
+.PHONY: report sheet examples-pictures examples-speed points install all deps test solids test-examples test-povray fuzz lint demo gallery bench bench-rays stress clean expressions bench-parse
 -include $(shell find build -name '*.d' 2>/dev/null)

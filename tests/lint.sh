@@ -42,7 +42,7 @@ function base model noise function
 texture base function image model noise texture
 render base function image kernel model noise options patch render shape texture
 report base image model options render report
-bench base converter function image model noise options patch kernel render bench
+bench base converter function image model noise options patch kernel render report bench
 cmd base bench converter function image model options patch render report cmd
 tests base bench converter function image kernel model noise options patch render report shape texture tests
 ROOMS

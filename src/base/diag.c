@@ -157,7 +157,7 @@ void warn_each_at(const Loc *loc, const char *format, ...) {
 void warn(const char *format, ...) {
     va_list args;
     va_start(args, format);
-    warn_with(NULL, false, format, args);
+    warn_with(NULL, true, format, args);
     va_end(args);
 }
 

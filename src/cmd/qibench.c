@@ -1,20 +1,24 @@
 // SPDX-License-Identifier: MIT
-// qibench: rays against patches, without pictures. `trace` answers rays from a text file, `speed`
-// measures.
+// qibench: `trace` answers rays from a text file, `speed` measures rays against patches, `sweep`
+// measures what accuracy costs in whole scenes.
 #include "base/diag.h"
 #include "base/version.h"
 #include "bench/speed.h"
+#include "bench/sweep_report.h"
 #include "bench/trace.h"
 
+#include <errno.h>
 #include <math.h>
 #include <omp.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 static const char usage[] =
     "usage: qibench trace [options] FILE\n"
     "       qibench speed [options] methods | picture | lattices | threads ...\n"
+    "       qibench sweep [options] scene.pov ...\n"
     "\n"
     "trace: rays against bicubic patches. FILE is text: `patches N`, then 16 lines `x y z` a "
     "patch;\n"
@@ -26,12 +30,22 @@ static const char usage[] =
     "triangles\n"
     "where Embree is installed, and prints tables in Markdown.\n"
     "\n"
+    "sweep: renders each scene by every method at several tolerances, with POV-Ray's triangles "
+    "cut\n"
+    "more and more, and by POV-Ray itself, and prints what each costs and how far it is from the\n"
+    "truth, which is qi at 1e-14.\n"
+    "\n"
     "  --method name       qi (default), or another one of the list that a wrong name shows\n"
     "  --tolerance x       hits lie within x times the patch's diameter of the patch (1e-9)\n"
     "  --isa name          scalar, avx2 or avx512 for qi: the best there is, unless given\n"
     "  --prepare how       sub-patches for qi: full (default), light (few), none (the paper's)\n"
     "  --threads n         0 (default): as many as there are cores\n"
     "  --rounds n          speed: the median of n rounds, odd (5)\n"
+    "  --size WxH          sweep: of the pictures (320x240)\n"
+    "  --include folder    sweep: where includes are looked for; may be repeated\n"
+    "  --html folder       sweep: also writes index.html, sweep.csv and sweep.json there\n"
+    "  --patience s        sweep: gives a point up after so many seconds (60)\n"
+    "  --povray on|off     sweep: run POV-Ray too (on)\n"
     "  --share x           speed methods: this share of the rays (1)\n"
     "  --view name         speed methods: full, zoom or scattered alone\n"
     "  --patches n         speed lattices: up to n patches (1000000)\n"
@@ -40,9 +54,9 @@ static const char usage[] =
     "Exit status: 0 done, 1 wrong input, 2 wrong usage.\n";
 
 // ORDER command
-typedef enum { COMMAND_TRACE, COMMAND_SPEED, COMMAND_COUNT } Command;
-static const char *const commands[COMMAND_COUNT] = {"trace", "speed"};
-enum { MAX_WORDS = 8 };
+typedef enum { COMMAND_TRACE, COMMAND_SPEED, COMMAND_SWEEP, COMMAND_COUNT } Command;
+static const char *const commands[COMMAND_COUNT] = {"trace", "speed", "sweep"};
+enum { MAX_WORDS = 64 };
 
 typedef struct {
     Command command;
@@ -50,6 +64,9 @@ typedef struct {
     SpeedOptions speed;
     int threads, word_count;
     const char *words[MAX_WORDS];
+    SweepOptions sweep;
+    const char *libraries[MAX_WORDS];
+    const char *html; // sweep: a folder; NULL: none
 } Options;
 
 static void complain(const char *format, const char *word) {
@@ -112,7 +129,7 @@ static bool apply_rounds(Options *o, const char *value) {
         complain("--rounds takes an odd number up to 21, not '%s'", value);
         return false;
     }
-    o->speed.rounds = (int)rounds;
+    o->speed.rounds = o->sweep.rounds = (int)rounds;
     return true;
 }
 
@@ -154,17 +171,60 @@ static bool apply_isa(Options *o, const char *value) {
     return false;
 }
 
+static bool apply_size(Options *o, const char *value) {
+    char rest;
+    if (sscanf(value, "%dx%d%c", &o->sweep.width, &o->sweep.height, &rest) == 2 &&
+        o->sweep.width >= 8 && o->sweep.height >= 8 && o->sweep.width <= 8192 &&
+        o->sweep.height <= 8192)
+        return true;
+    complain("--size takes a width and a height, 8x8 to 8192x8192, not '%s'", value);
+    return false;
+}
+
+static bool apply_include(Options *o, const char *value) {
+    if (o->sweep.library_path_count == MAX_WORDS) {
+        complain("too many folders: '%s'", value);
+        return false;
+    }
+    o->libraries[o->sweep.library_path_count++] = value;
+    return true;
+}
+
+static bool apply_html(Options *o, const char *value) {
+    o->html = value;
+    return true;
+}
+
+static bool apply_patience(Options *o, const char *value) {
+    char *stop;
+    o->sweep.patience = strtod(value, &stop);
+    if (stop != value && !*stop && o->sweep.patience >= 1.0 && o->sweep.patience <= 1e6)
+        return true;
+    complain("--patience takes seconds from 1 on, not '%s'", value);
+    return false;
+}
+
+static bool apply_povray(Options *o, const char *value) {
+    o->sweep.povray = strcmp(value, "on") == 0;
+    if (o->sweep.povray || strcmp(value, "off") == 0)
+        return true;
+    complain("--povray takes on or off, not '%s'", value);
+    return false;
+}
+
 // --word value or --word=value.
 static bool apply_option(Options *o, const char *word, const char *value) {
     static const struct {
         const char *name;
         unsigned commands; // 1 << Command
         bool (*apply)(Options *o, const char *value);
-    } rows[] = {{"--method", 3, apply_method},   {"--tolerance", 3, apply_tolerance},
-                {"--isa", 3, apply_isa},         {"--prepare", 3, apply_prepare},
-                {"--threads", 1, apply_threads}, {"--rounds", 2, apply_rounds},
-                {"--share", 2, apply_share},     {"--view", 2, apply_view},
-                {"--patches", 2, apply_patches}};
+    } rows[] = {{"--method", 3, apply_method},     {"--tolerance", 3, apply_tolerance},
+                {"--isa", 7, apply_isa},           {"--prepare", 3, apply_prepare},
+                {"--threads", 1, apply_threads},   {"--rounds", 6, apply_rounds},
+                {"--share", 2, apply_share},       {"--view", 2, apply_view},
+                {"--patches", 2, apply_patches},   {"--size", 4, apply_size},
+                {"--include", 4, apply_include},   {"--html", 4, apply_html},
+                {"--patience", 4, apply_patience}, {"--povray", 4, apply_povray}};
     size_t length = strcspn(word, "=");
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         if (strlen(rows[i].name) != length || strncmp(word, rows[i].name, length) != 0)
@@ -255,6 +315,43 @@ static int speed(const Options *o) {
     return 0;
 }
 
+static void make_folder(const char *path) {
+    struct stat st;
+    if (mkdir(path, 0777) != 0 && errno != EEXIST)
+        die("cannot make the folder '%s': %s", path, strerror(errno));
+    if (stat(path, &st) != 0 || !S_ISDIR(st.st_mode))
+        die("'%s' is not a folder", path);
+}
+
+static int sweep(Options *o, int argc, char **argv) {
+    if (o->word_count == 0) {
+        complain("%s", "no scene given");
+        return 2;
+    }
+    Arena *arena = arena_create();
+    const Sweep *sweeps[MAX_WORDS];
+    if (o->html)
+        make_folder(o->html); // before the work
+    o->sweep.library_paths = o->libraries;
+    for (int i = 0; i < o->word_count; i++) {
+        o->sweep.scene = o->words[i];
+        sweeps[i] = sweep_run(&o->sweep, arena);
+        if (i)
+            putchar('\n');
+        sweep_print(sweeps[i], stdout);
+        fflush(stdout);
+    }
+    if (o->html) {
+        char *command = arena_strdup(arena, "qibench");
+        for (int i = 1; i < argc; i++)
+            command = arena_printf(arena, "%s %s", command, argv[i]);
+        sweep_write(sweeps, (size_t)o->word_count, o->html, command);
+        printf("\n%s/index.html\n", o->html);
+    }
+    arena_destroy(arena);
+    return 0;
+}
+
 int main(int argc, char **argv) {
     diag_program("qibench");
     for (int i = 1; i < argc; i++) {
@@ -267,14 +364,23 @@ int main(int argc, char **argv) {
             return 0;
         }
     }
-    Options o = {.set = patchset_options_default(), .speed = speed_options_default()};
+    Options o = {.set = patchset_options_default(),
+                 .speed = speed_options_default(),
+                 .sweep = sweep_options_default()};
     while (o.command < COMMAND_COUNT && (argc < 2 || strcmp(argv[1], commands[o.command]) != 0))
         o.command++;
     if (o.command == COMMAND_COUNT) {
-        complain("%s", "the first word says what to do: trace or speed");
+        complain("%s", "the first word says what to do: trace, speed or sweep");
         return 2;
     }
     if (!parse(argc - 2, argv + 2, &o))
         return 2;
-    return o.command == COMMAND_TRACE ? trace(&o) : speed(&o);
+    switch (o.command) {
+    case COMMAND_TRACE:
+        return trace(&o);
+    case COMMAND_SPEED:
+        return speed(&o);
+    default:
+        return sweep(&o, argc, argv);
+    }
 }

@@ -84,6 +84,8 @@ typedef struct {
 } PatchSetOptions;
 
 PatchSetOptions patchset_options_default(void);
+// What a patch in that box gets when its definition gives none, scene units.
+double patchset_tolerance(const PatchSetOptions *options, Box bounds);
 PatchSet *patchset_create(const PatchSetOptions *options);
 void patchset_destroy(PatchSet *set);
 // Points must be finite and weights valid (the caller has checked). Not after commit.

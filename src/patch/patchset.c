@@ -102,6 +102,14 @@ static double diagonal(Box box) {
     return hypot(d.x, hypot(d.y, d.z));
 }
 
+double patchset_tolerance(const PatchSetOptions *options, Box bounds) {
+    double tolerance =
+        options->tolerance_of ? options->tolerance_of(options->context, bounds) : 0.0;
+    if (tolerance > 0.0)
+        return tolerance;
+    return options->tolerance * diagonal(bounds);
+}
+
 void patchset_add(PatchSet *set, const PatchDef *def) {
     assert(!set->committed);
     assert(def->degree_u >= 1 && def->degree_u <= 16 && def->degree_v >= 1 && def->degree_v <= 16);
@@ -118,10 +126,8 @@ void patchset_add(PatchSet *set, const PatchDef *def) {
         box = box_extend(box, own.points[i]);
     }
     set->bounds = box_union(set->bounds, box);
-    if (!(own.tolerance > 0.0) && set->options.tolerance_of)
-        own.tolerance = set->options.tolerance_of(set->options.context, box);
     if (!(own.tolerance > 0.0))
-        own.tolerance = set->options.tolerance * diagonal(box);
+        own.tolerance = patchset_tolerance(&set->options, box);
     if (def->weights) {
         own.weights = arena_copy(set->arena, def->weights, count * sizeof(double));
         for (size_t i = 0; i < count; i++)

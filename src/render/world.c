@@ -223,17 +223,14 @@ WorldNear world_near(const World *world, const WorldHit *from, Vec3 dir, double 
         return (WorldNear){least, fmax(least, PATCH_NEAREST)};
     if (!from)
         return (WorldNear){least, 0.0};
-    if (!(from->bound > 0.0))
+    if (!(from->reach > 0.0))
         return (WorldNear){least, least};
-    // The start is off the surface by the hit's bound and the rounding of org + t dir; the surface
-    // is found again with an error of its own. At a sine s to it that is a way of d / s; where the
-    // ray leaves at less than the angle at which a surface as curved as the whole set is wide
-    // departs by d, by that way.
-    // How near to the surface Newton stops differs from ray to ray: of Splitter.pov's shadow rays
-    // some found it again with ten times the bound of the hit they left (1.1e-12 after 1.0e-13),
-    // and a row of pixels lay in its own shadow. 16 times as much leaves room.
+    // The start is off the surface by the hit's bound and the rounding of org + t dir; the surface,
+    // or that of a neighbour, is found again as far off as its tolerance allows. At a sine s to it
+    // that is a way of d / s; where the ray leaves at less than the angle at which a surface as
+    // curved as the whole set is wide departs by d, by that way.
     double place = fabs(from->p.x) + fabs(from->p.y) + fabs(from->p.z) + from->t;
-    double d = 16.0 * (2.0 * from->bound + 16.0 * 0x1p-53 * place);
+    double d = from->reach + 16.0 * 0x1p-53 * place;
     double sine = fabs(vec_dot(dir, from->normal)) / vec_length(dir);
     double least_sine = sqrt(d / world->size);
     return (WorldNear){least, 2.0 * d / fmax(sine, least_sine) / vec_length(dir)};
@@ -271,13 +268,14 @@ bool world_nearest(const World *world, const Ray *ray, WorldNear near, double t_
         Vec2 uv = shape_uv(&query.prim->shape, hit->p, &query.hit);
         hit->normal = shape_normal(&query.prim->shape, hit->p, &query.hit);
         hit->u = uv.u, hit->v = uv.v;
-        hit->bound = 0.0;
+        hit->bound = hit->reach = 0.0;
     } else {
         const PatchShape *patch = &world->scene->objects[hit->object].shape.patch;
         Vec2 uv = patch_uv(patch, query.patch.u, query.patch.v);
         hit->normal = query.patch.normal;
         hit->u = uv.u, hit->v = uv.v;
         hit->bound = query.patch.bound;
+        hit->reach = query.patch.bound + query.leaf->tolerance;
     }
     return true;
 }

@@ -28,6 +28,7 @@ typedef struct {
     Vec3 normal;     // unit; the object's, before flipping to the viewer; `inverse` already applied
     double u, v;     // texture coordinates; p.x, p.y where the object has no mapping of its own
     double bound;    // patches: the hit's proven bound, else 0
+    double reach;    // patches: how far apart this hit and another one of the same place may be
     uint32_t object; // index in scene->objects, a leaf
     // The primitive's own textures; none: the object's count.
     uint32_t texture_count;

@@ -12,10 +12,11 @@
 typedef struct {
     uint32_t object;
     uint32_t position;
-    uint32_t rank; // which of two hits at the same depth counts: the lower
-    uint32_t mask; // RayKind bits of the rays that see it
-    uint32_t node; // in the Csg; NO_INDEX: an unhidden patch
-    bool watched;  // its hits may be hidden
+    uint32_t rank;    // which of two hits at the same depth counts: the lower
+    uint32_t mask;    // RayKind bits of the rays that see it
+    uint32_t node;    // in the Csg; NO_INDEX: an unhidden patch
+    bool watched;     // its hits may be hidden
+    double tolerance; // of a patch's hits, scene units
 } Leaf;
 
 typedef struct {

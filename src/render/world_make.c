@@ -153,6 +153,10 @@ static void add_patches(World *world, const PatchSetOptions *options) {
                         .flatness = patch->flatness,
                         .u_steps = patch->u_steps,
                         .v_steps = patch->v_steps};
+        Box box = box_empty();
+        for (uint32_t k = 0; k < (def.degree_u + 1) * (def.degree_v + 1); k++)
+            box = box_extend(box, def.points[k]);
+        world->leaves[i].tolerance = patchset_tolerance(options, box);
         patchset_add(*set, &def);
     }
     if (world->patches)

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+// POV-Ray's own points of a sweep: the scene with other steps, which means another text.
+#ifndef BENCH_SWEEP_POVRAY_H
+#define BENCH_SWEEP_POVRAY_H
+
+#include "bench/sweep.h"
+
+// A copy of the scene's folder in a temporary one, removed by the caller with sweep_povray_end.
+typedef struct {
+    char folder[64];
+    const char *scene; // its name there
+} SweepCopy;
+
+// NULL: done; else why not.
+const char *sweep_povray_begin(const SweepOptions *options, SweepCopy *copy, Arena *arena);
+void sweep_povray_end(const SweepCopy *copy);
+
+// Renders with u_steps and v_steps n and flatness 0 wherever the text gives a number or a name for
+// them.
+// *seconds: of processor time, less what reading the scene alone takes (a picture of one pixel).
+// NULL: done; else why not.
+const char *sweep_povray(const SweepOptions *options, const SweepCopy *copy, int steps,
+                         double *seconds, Image **picture, Arena *arena);
+
+#endif

@@ -260,7 +260,8 @@ static uint32_t emit_leaf(Emitter *e, const ObjectNode *node, const Inherited *o
     apply_flags(&object, own);
     if (object.type != OBJECT_PATCH)
         emit_clips(e, node, &object);
-    emit_solid(e, node, own->body, &object);
+    if (!emit_solid(e, node, own->body, &object))
+        return NO_INDEX;
     if (own->body)
         return store_object(e, &object);
     object.texture = emit_texture(e, own->texture);
@@ -383,7 +384,8 @@ static void emit_clips(Emitter *e, const ObjectNode *node, Object *object) {
         return;
     object->clips.items = ARENA_ARRAY(e->cv->arena, uint32_t, count);
     for (const ObjectNode *clip = node->clips; clip; clip = clip->next)
-        object->clips.items[object->clips.count++] = emit_object(e, clip, &from);
+        if ((object->clips.items[object->clips.count] = emit_object(e, clip, &from)) != NO_INDEX)
+            object->clips.count++;
 }
 
 static uint32_t emit_object(Emitter *e, const ObjectNode *node, const Inherited *from) {

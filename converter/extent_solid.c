@@ -122,6 +122,11 @@ Box solid_extent(const ObjectNode *node) {
         return rows_box(node->mesh->points, node->mesh->point_count);
     case OBJECT_HEIGHT_FIELD:
         return height_box(&object->shape.height_field, node->map);
+    case OBJECT_ISOSURFACE: {
+        const IsosurfaceShape *iso = &object->shape.isosurface;
+        return iso->in_sphere ? ball_box(box_empty(), iso->center, iso->radius)
+                              : (Box){iso->low, iso->high};
+    }
     case OBJECT_TEXT:
         return text_box(&object->shape.text);
     default:

@@ -44,6 +44,7 @@ static bool object_type(int keyword, ObjectType *type) {
         {KW_mesh2, OBJECT_MESH},
         {KW_height_field, OBJECT_HEIGHT_FIELD},
         {KW_text, OBJECT_TEXT},
+        {KW_isosurface, OBJECT_ISOSURFACE},
     };
     for (size_t i = 0; i < sizeof types / sizeof *types; i++)
         if (types[i].keyword == keyword) {

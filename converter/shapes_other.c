@@ -79,13 +79,6 @@ static void parse_function_body(Converter *cv, const char *where) {
     optional_comma(cv);
 }
 
-static void parse_isosurface(Converter *cv, ObjectNode *object) {
-    (void)object;
-    parse_function_body(cv, "isosurface");
-    while (parse_function_option(cv)) {
-    }
-}
-
 static void parse_parametric(Converter *cv, ObjectNode *object) {
     (void)object;
     for (int i = 0; i < 3; i++)
@@ -146,7 +139,6 @@ ParseShape *shape_other_parser(int keyword) {
         int keyword;
         ParseShape *parse;
     } shapes[] = {
-        {KW_isosurface, parse_isosurface},
         {KW_julia_fractal, parse_julia_fractal},
         {KW_parametric, parse_parametric},
     };

@@ -532,6 +532,7 @@ ParseShape *solid_parser(int keyword) {
         {KW_blob, parse_blob},
         {KW_cubic, parse_poly},
         {KW_height_field, parse_height_field},
+        {KW_isosurface, parse_isosurface},
         {KW_lathe, parse_lathe},
         {KW_mesh, parse_mesh},
         {KW_mesh2, parse_mesh2},

@@ -49,7 +49,20 @@ static Mesh random_mesh(Rng *rng, Arena *arena) {
     return mesh;
 }
 
+// The first argument, unchanged.
+static void put_function(Arena *arena, Scene *scene) {
+    Function *f = scene->functions = ARENA_NEW(arena, Function);
+    scene->function_count = 1;
+    *f = function_default(FUNCTION_FORMULA);
+    f->parameters = f->registers = f->stack = 3;
+    f->steps = ARENA_NEW(arena, FunctionStep);
+    f->steps[0].op = FUNCTION_RETURN;
+    f->step_count = 1;
+}
+
 void random_pools(Rng *rng, Arena *arena, Scene *scene) {
+    if (scene->function_count == 0)
+        put_function(arena, scene);
     scene->mesh_count = 1 + below(rng, 3);
     scene->meshes = ARENA_ARRAY(arena, Mesh, scene->mesh_count);
     for (uint32_t i = 0; i < scene->mesh_count; i++)
@@ -115,6 +128,41 @@ static void random_mesh_shape(Rng *rng, Arena *arena, const Scene *scene, MeshSh
     shape->textures = ARENA_ARRAY(arena, uint32_t, shape->texture_count);
     for (uint32_t i = 0; i < shape->texture_count; i++)
         shape->textures[i] = below(rng, scene->texture_count);
+}
+
+// A function that such a surface can have; NO_INDEX: the scene has none.
+static uint32_t formula_of_three(const Scene *scene) {
+    for (uint32_t i = 0; i < scene->function_count; i++) {
+        const Function *f = &scene->functions[i];
+        if (f->type == FUNCTION_FORMULA && f->parameters == 3 &&
+            !function_asks_pigment(scene->functions, i))
+            return i;
+    }
+    return NO_INDEX;
+}
+
+static void random_isosurface(Rng *rng, const Scene *scene, Object *object) {
+    uint32_t function = formula_of_three(scene);
+    if (function == NO_INDEX) {
+        object->type = OBJECT_SPHERE;
+        object->shape.sphere = (SphereShape){random_point(rng), 1};
+        return;
+    }
+    object->shape.isosurface = (IsosurfaceShape){.function = function,
+                                                 .in_sphere = below(rng, 2),
+                                                 .low = vec3(-1, -2, -rng_unit(rng)),
+                                                 .high = vec3(1, 2, rng_unit(rng)),
+                                                 .center = random_point(rng),
+                                                 .radius = rng_unit(rng),
+                                                 .threshold = rng_unit(rng),
+                                                 .accuracy = rng_range(rng, 0.1, 1),
+                                                 .max_gradient = rng_range(rng, 0.1, 9),
+                                                 .max_trace = 1 + (int)below(rng, 10),
+                                                 .open = below(rng, 2),
+                                                 .evaluate = below(rng, 2),
+                                                 .evaluate_from = rng_unit(rng),
+                                                 .evaluate_over = rng_unit(rng),
+                                                 .evaluate_fall = rng_unit(rng)};
 }
 
 void random_solid(Rng *rng, Arena *arena, const Scene *scene, Object *object) {
@@ -188,6 +236,9 @@ void random_solid(Rng *rng, Arena *arena, const Scene *scene, Object *object) {
     case OBJECT_TEXT:
         random_text(rng, arena, &object->shape.text);
         break;
+    case OBJECT_ISOSURFACE:
+        random_isosurface(rng, scene, object);
+        break;
     default:
         break;
     }
@@ -224,6 +275,25 @@ static const char *blob_difference(const BlobShape *a, const BlobShape *b) {
         if (found)
             return found;
     }
+    return NULL;
+}
+
+static const char *isosurface_difference(const IsosurfaceShape *a, const IsosurfaceShape *b) {
+    SAME(function);
+    SAME(in_sphere);
+    SAME(low);
+    SAME(high);
+    SAME(center);
+    SAME(radius);
+    SAME(threshold);
+    SAME(accuracy);
+    SAME(max_gradient);
+    SAME(max_trace);
+    SAME(open);
+    SAME(evaluate);
+    SAME(evaluate_from);
+    SAME(evaluate_over);
+    SAME(evaluate_fall);
     return NULL;
 }
 
@@ -286,6 +356,8 @@ const char *solid_difference(const Object *a, const Object *b) {
         SAME_ROWS(shape.text.arcs, shape.text.arc_count, 6);
         SAME_ROWS(shape.text.letters, shape.text.letter_count, 1);
         break;
+    case OBJECT_ISOSURFACE:
+        return isosurface_difference(&a->shape.isosurface, &b->shape.isosurface);
     default:
         break;
     }

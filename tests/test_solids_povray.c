@@ -179,6 +179,18 @@ static const Primitive PRIMITIVES[] = {
      "-0.5 scale <2,1.2,2>",
      true, NONE},
     {"hf_grey", "height_field{png \"Mount2.png\" translate -0.5 scale <2,1.2,2>", true, NONE},
+    {"isosurface box",
+     "isosurface { function { x*x + y*y*1.5 + z*z - 0.7 + 0.1*sin(9*x) } "
+     "contained_by { box { -1, 1 } } max_gradient 5",
+     true, NONE},
+    {"isosurface sphere",
+     "isosurface { function { (sqrt(x*x + z*z) - 0.6)*(sqrt(x*x + z*z) - 0.6) + y*y - 0.05 } "
+     "contained_by { sphere { <0.2, 0, 0>, 0.8 } } max_gradient 3 all_intersections",
+     true, NONE},
+    {"isosurface open",
+     "isosurface { function { y - 0.3*sin(5*x)*cos(5*z) } contained_by { box { -0.9, 0.9 } } "
+     "evaluate 1, 1.3, 0.9 max_gradient 2.5 open",
+     true, NONE},
     {"text", "text{ttf \"timrom.ttf\" \"Qi&g8\" 0.4, 0 translate <-1.1,-0.3,-0.2>", true, AT_LARGE},
     {"text2",
      "text{ttf \"crystal.ttf\" \"AVTo\" 0.2, <0.05,0.03,0> translate <-1.1,"
@@ -334,7 +346,7 @@ static int check_row(Bench *bench, size_t row) {
         skip();
     }
     jobs = 0;
-    printf("%-16s", PRIMITIVES[row].name);
+    printf("%-18s", PRIMITIVES[row].name);
     for (Variant v = PLAIN; v < VARIANTS; v++) {
         if (!wanted(bench, row, v)) {
             printf("%9s", "-");
@@ -363,7 +375,7 @@ static void test_primitives(void **state) {
     assert_true(bench.ours && bench.theirs);
     bench.pictures = povray_create(bench.width, bench.height);
     int bad = 0;
-    printf("%-16s", "percent off");
+    printf("%-18s", "percent off");
     for (Variant v = PLAIN; v < VARIANTS; v++)
         printf("%9s", VARIANT_NAMES[v]);
     printf("\n");

@@ -38,6 +38,7 @@ const char *const OBJECT_TYPE_NAMES[] = {
     "mesh",
     "height_field",
     "text",
+    "isosurface",
     NULL,
 };
 _Static_assert(sizeof OBJECT_TYPE_NAMES / sizeof *OBJECT_TYPE_NAMES == OBJECT_TYPE_COUNT + 1,
@@ -257,6 +258,29 @@ static const Field TEXT_FIELDS[] = {
     END,
 };
 
+static const Field ISOSURFACE_FIELDS[] = {
+    {.name = "function",
+     .type = FIELD_INDEX,
+     .presence = FIELD_REQUIRED,
+     AT(Object, shape.isosurface.function)},
+    BOOL(Object, shape.isosurface.in_sphere, "in_sphere"),
+    VEC3(Object, shape.isosurface.low, "low"),
+    VEC3(Object, shape.isosurface.high, "high"),
+    VEC3(Object, shape.isosurface.center, "center"),
+    DOUBLE(Object, shape.isosurface.radius, "radius"),
+    DOUBLE(Object, shape.isosurface.threshold, "threshold"),
+    DOUBLE(Object, shape.isosurface.accuracy, "accuracy"),
+    DOUBLE(Object, shape.isosurface.max_gradient, "max_gradient"),
+    INT(Object, shape.isosurface.max_trace, "max_trace"),
+    BOOL(Object, shape.isosurface.open, "open"),
+    BOOL(Object, shape.isosurface.evaluate, "evaluate"),
+    DOUBLE(Object, shape.isosurface.evaluate_from, "evaluate_from"),
+    DOUBLE(Object, shape.isosurface.evaluate_over, "evaluate_over"),
+    DOUBLE(Object, shape.isosurface.evaluate_fall, "evaluate_fall"),
+    OBJECT_TRANSFORM,
+    END,
+};
+
 // ORDER object_type
 static const Record OBJECT_RECORDS[] = {
     {NULL, OBJECT_FIELDS, sizeof(Object), NULL, NULL}, // union
@@ -285,6 +309,7 @@ static const Record OBJECT_RECORDS[] = {
     {&OBJECT, MESH_FIELDS, sizeof(Object), NULL, NULL},
     {&OBJECT, HEIGHT_FIELD_FIELDS, sizeof(Object), NULL, NULL},
     {&OBJECT, TEXT_FIELDS, sizeof(Object), NULL, NULL},
+    {&OBJECT, ISOSURFACE_FIELDS, sizeof(Object), NULL, NULL},
 };
 _Static_assert(sizeof OBJECT_RECORDS / sizeof *OBJECT_RECORDS == OBJECT_TYPE_COUNT,
                "a record for each type");

@@ -162,6 +162,13 @@ Object object_default(ObjectType type) {
         object.shape.blob.threshold = 1;
     if (type == OBJECT_SPHERE_SWEEP)
         object.shape.sphere_sweep.tolerance = 1e-6;
+    if (type == OBJECT_ISOSURFACE)
+        object.shape.isosurface = (IsosurfaceShape){.function = NO_INDEX,
+                                                    .low = {-1, -1, -1},
+                                                    .high = {1, 1, 1},
+                                                    .accuracy = 1e-3,
+                                                    .max_gradient = 1.1,
+                                                    .max_trace = 1};
     return object;
 }
 
@@ -193,8 +200,8 @@ bool object_is_tree(const Object *object) {
     X(brilliance)                                                                                  \
     X(bump_map)                                                                                    \
     X(bumps)                                                                                       \
-    X(caustics)                                                                                    \
     X(camera_normal)                                                                               \
+    X(caustics)                                                                                    \
     X(cells)                                                                                       \
     X(checker)                                                                                     \
     X(clipped_by)                                                                                  \
@@ -230,6 +237,7 @@ bool object_is_tree(const Object *object) {
     X(intersection)                                                                                \
     X(inverse)                                                                                     \
     X(irid)                                                                                        \
+    X(isosurface)                                                                                  \
     X(lathe)                                                                                       \
     X(layered_texture)                                                                             \
     X(leopard)                                                                                     \
@@ -509,6 +517,8 @@ static Feature object_feature(const Object *object) {
         return FEATURE_height_field;
     case OBJECT_TEXT:
         return FEATURE_text;
+    case OBJECT_ISOSURFACE:
+        return FEATURE_isosurface;
     case OBJECT_TYPE_COUNT:
         break;
     }

@@ -469,6 +469,7 @@ typedef enum {
     OBJECT_MESH,
     OBJECT_HEIGHT_FIELD,
     OBJECT_TEXT,
+    OBJECT_ISOSURFACE,
     OBJECT_TYPE_COUNT,
 } ObjectType;
 
@@ -563,6 +564,7 @@ typedef struct {
         MeshShape mesh;
         HeightFieldShape height_field;
         TextShape text;
+        IsosurfaceShape isosurface;
         ObjectList children; // UNION, MERGE, INTERSECTION
     } shape;
 } Object;
@@ -667,6 +669,8 @@ Warp warp_default(WarpType type);
 Object object_default(ObjectType type);
 // Has it children?
 bool object_is_tree(const Object *object);
+// Does the function, or one that it calls, ask a pigment? functions: of a valid scene.
+bool function_asks_pigment(const Function *functions, uint32_t index);
 // Has it a local space, so that it may have a transform?
 bool object_has_space(ObjectType type);
 

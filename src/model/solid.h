@@ -161,4 +161,21 @@ typedef struct {
     uint32_t letter_count;
 } TextShape;
 
+// Where a function of x, y and z is not above the threshold, within a box or a sphere.
+typedef struct {
+    uint32_t function; // of the scene: a formula of three arguments, without pigments in it
+    bool in_sphere;    // around center; else the box from low to high
+    Vec3 low, high, center;
+    double radius;
+    double threshold;
+    double accuracy;     // as a depth in the world
+    double max_gradient; // that the surface is found with
+    int max_trace;       // surfaces along a ray, 1 to 10
+    bool open;           // not closed where the container cuts it
+    bool evaluate;       // the gradient grows as it is met: by these three numbers
+    double evaluate_from, evaluate_over, evaluate_fall;
+} IsosurfaceShape;
+
+enum { SCENE_MAX_TRACE = 10 };
+
 #endif

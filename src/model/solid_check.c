@@ -107,6 +107,43 @@ static void check_text(const Check *c, const FieldPath *path, const TextShape *t
             refuse(c, &place, "%u does not follow, or is no arc", text->letters[i]);
 }
 
+bool function_asks_pigment(const Function *functions, uint32_t index) {
+    const Function *f = &functions[index];
+    if (f->type == FUNCTION_PIGMENT || f->type == FUNCTION_PATTERN)
+        return true;
+    for (uint32_t i = 0; f->type == FUNCTION_FORMULA && i < f->step_count; i++) {
+        const FunctionStep *step = &f->steps[i];
+        // Calls go to functions before this one only.
+        if ((step->op == FUNCTION_CALL || step->op == FUNCTION_CALL_VECTOR) &&
+            function_asks_pigment(functions, (uint32_t)step->a))
+            return true;
+    }
+    return false;
+}
+
+static void check_isosurface(const Check *c, const FieldPath *path, const IsosurfaceShape *iso) {
+    const FieldPath function = path_field(path, "function"), low = path_field(path, "low");
+    check_index(c, &function, iso->function, c->scene->function_count, "function");
+    const Function *f = &c->scene->functions[iso->function];
+    if (f->type != FUNCTION_FORMULA || f->parameters != 3)
+        refuse(c, &function, "%u is no formula of three arguments", iso->function);
+    if (function_asks_pigment(c->scene->functions, iso->function))
+        refuse(c, &function, "%u asks a pigment", iso->function);
+    check_vec3(c, path, "low", iso->low);
+    check_vec3(c, path, "high", iso->high);
+    if (iso->low.x > iso->high.x || iso->low.y > iso->high.y || iso->low.z > iso->high.z)
+        refuse(c, &low, "it is above 'high'");
+    check_vec3(c, path, "center", iso->center);
+    check_size(c, path, "radius", iso->radius);
+    check_numbers(c, path, "threshold", &iso->threshold, 1);
+    check_above_zero(c, path, "accuracy", iso->accuracy);
+    check_above_zero(c, path, "max_gradient", iso->max_gradient);
+    check_range(c, path, "max_trace", iso->max_trace, 1, SCENE_MAX_TRACE);
+    check_numbers(c, path, "evaluate_from", &iso->evaluate_from, 1);
+    check_numbers(c, path, "evaluate_over", &iso->evaluate_over, 1);
+    check_numbers(c, path, "evaluate_fall", &iso->evaluate_fall, 1);
+}
+
 static void check_mesh_textures(const Check *c, const FieldPath *path, const MeshShape *shape) {
     const FieldPath list = path_field(path, "textures");
     int slots = c->scene->meshes[shape->mesh].texture_slots;
@@ -179,6 +216,9 @@ void check_solid(const Check *c, const FieldPath *path, const Object *object) {
         break;
     case OBJECT_TEXT:
         check_text(c, path, &object->shape.text);
+        break;
+    case OBJECT_ISOSURFACE:
+        check_isosurface(c, path, &object->shape.isosurface);
         break;
     default:
         break;

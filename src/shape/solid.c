@@ -81,6 +81,8 @@ static SolidData prepare(const Scene *scene, const Object *object, Arena *arena)
                                     &scene->height_maps[object->shape.height_field.map], arena);
     case OBJECT_TEXT:
         return text_prepare(&object->shape.text, arena);
+    case OBJECT_ISOSURFACE:
+        return isosurface_prepare(scene, &object->shape.isosurface, arena);
     default:
         return (SolidData){0};
     }

@@ -59,6 +59,7 @@ SolidData smooth_triangle_prepare(const SmoothTriangleShape *triangle, Arena *ar
 SolidData polygon_prepare(const PolygonShape *polygon, Arena *arena);
 SolidData mesh_prepare(const Mesh *mesh, Arena *arena);
 SolidData height_field_prepare(const HeightFieldShape *field, const HeightMap *map, Arena *arena);
+SolidData isosurface_prepare(const Scene *scene, const IsosurfaceShape *shape, Arena *arena);
 SolidData text_prepare(const TextShape *text, Arena *arena);
 
 // Angle of (x, z) about the y axis, 0..1 from +x towards +z: what lathe and sor have for u.

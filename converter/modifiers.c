@@ -130,13 +130,22 @@ bool parse_photons_modifier(Converter *cv) {
     return true;
 }
 
+// radiosity { [importance F] }
+void parse_importance_block(Converter *cv) {
+    expect(cv, '{', "radiosity");
+    if (accept(cv, KW_importance)) {
+        Loc loc = here(cv);
+        double importance = parse_float(cv);
+        if (!(importance > 0 && importance <= 1))
+            die_at(&loc, "Radiosity importance must be greater than 0.0 and at most 1.0");
+    }
+    expect(cv, '}', "radiosity");
+}
+
 static bool parse_radiosity_modifier(Converter *cv) {
     if (!accept(cv, KW_radiosity))
         return false;
-    expect(cv, '{', "radiosity");
-    if (accept(cv, KW_importance))
-        parse_float(cv);
-    expect(cv, '}', "radiosity");
+    parse_importance_block(cv);
     return true;
 }
 

@@ -301,6 +301,7 @@ void object_unshare(Converter *cv, ObjectNode *object);
 void object_move(Converter *cv, ObjectNode *object, Move *move);
 void object_invert(Converter *cv, ObjectNode *object);
 bool parse_photons_modifier(Converter *cv); // photons { ... } of an object or a light
+void parse_importance_block(Converter *cv); // radiosity { ... } of an object or of #default
 // All modifiers; dies if a rule that holds at the end is broken.
 void parse_object_modifiers(Converter *cv, ObjectNode *object);
 

@@ -209,7 +209,10 @@ static bool parse_shape_modifier(Converter *cv, PatternNode *pattern, int code) 
         return true;
     case KW_form:
         next_token(cv);
-        shape->crackle.form = parse_vector(cv);
+        if (pattern->info->keyword == KW_pavement)
+            parse_pavement_number(cv, code);
+        else
+            shape->crackle.form = parse_vector(cv);
         return true;
     case KW_metric: // a vector, of which one component counts
         next_token(cv);

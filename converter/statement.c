@@ -157,10 +157,7 @@ void parse_default_block(Converter *cv) {
         } else if (accept(cv, KW_camera)) {
             nodes->default_camera = *parse_camera_block(cv);
         } else if (accept(cv, KW_radiosity)) {
-            expect(cv, '{', "radiosity");
-            if (accept(cv, KW_importance))
-                parse_float(cv);
-            expect(cv, '}', "radiosity");
+            parse_importance_block(cv);
         } else {
             break;
         }

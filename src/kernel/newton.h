@@ -10,6 +10,8 @@
 enum { NEWTON_STEPS = 6 }; // two, as a rule
 // Of the normal, a sine: pictures have 16 bits.
 static const double NEWTON_NORMAL_ERROR = 1e-6;
+// Below it the normal is taken from where the last step begins: rounding is not far.
+static const double NEWTON_NORMAL_TURN = 1e-12;
 
 typedef enum { NEWTON_LOST, NEWTON_TAKEN, NEWTON_STOP } Newton;
 
@@ -93,6 +95,14 @@ static inline Newton newton_sharpen(Walk *walk, const Piece *piece, double u, do
             if (distance > 4.0 * tolerance)
                 return NEWTON_LOST;
             continue;
+        }
+        // What is left of the turn is seen in mirrors whose pictures lie a thousand units away.
+        if (query->kind != QUERY_ANY && turn > NEWTON_NORMAL_TURN * area) {
+            eval_patch(ray->patch, clamp(u, 0.0, 1.0), clamp(v, 0.0, 1.0), s);
+            n = vec_cross(s[1], s[2]);
+            area = vec_length(n);
+            if (!(area > 0.0))
+                return NEWTON_LOST;
         }
         Root root = {.hit = {.t = ray->t_base + depth * ray->t_per_s,
                              .u = u,

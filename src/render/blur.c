@@ -245,9 +245,9 @@ static void deflect(const Blur *blur, const Vec2 *point, double x, double y, Ray
 }
 
 // Where in its pixel a sample lies; the jitter is off the middle of the cell, as in POV-Ray.
-static void place_in_pixel(int seed, double *dx, double *dy) {
-    int i = sample_permutation(seed & 4095) % PIXEL_GRID;
-    int j = sample_permutation((seed + 1) & 4095) % PIXEL_GRID;
+static void place_in_pixel(int64_t seed, double *dx, double *dy) {
+    int i = sample_permutation((int)(seed & 4095)) % PIXEL_GRID;
+    int j = sample_permutation((int)((seed + 1) & 4095)) % PIXEL_GRID;
     double jx, jy;
     *dx = (double)(2 * i + 1) / (2 * PIXEL_GRID) - 0.5;
     *dy = (double)(2 * j + 1) / (2 * PIXEL_GRID) - 0.5;
@@ -283,7 +283,8 @@ Color blur_trace(const Blur *blur, const CameraView *view, double x, double y, S
                  void *context, uint64_t *rays) {
     const FocalBlur *lens = &blur->camera->blur;
     const int *batch = blur->batches;
-    int seed = (int)(x * 313.0 + 11.0) + (int)(y * 311.0 + 17.0), count = 0;
+    int64_t seed = (int64_t)(x * 313.0 + 11.0) + (int64_t)(y * 311.0 + 17.0);
+    int count = 0;
     Color sum = {0};
     Moments moments = {{0}, {0}};
     do {

@@ -338,7 +338,7 @@ static void written(void **state) {
         // Pointers differ; the rest must not.
         for (RenderOptions *o = &a; o; o = o == &a ? &b : NULL) {
             o->input = o->output = o->include_header = NULL;
-            o->library_paths = o->shared = o->own = NULL;
+            o->library_paths = o->shared = o->own = o->scenes = NULL;
             o->declares = NULL;
             o->remarks = NULL;
             o->remark_count = 0;

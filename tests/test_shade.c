@@ -35,7 +35,9 @@ static void add_row(Fixture *f, const Row *row, int index) {
     Object sphere = fixture_sphere(vec3(CELL * index, 0, 0), 1.0);
     sphere.texture = fixture_texture(f, &layer, 1);
     if (row->interior != NULL)
-        sphere.interior = fixture_interior(f, row->inner);
+        Interior inner = row->inner;
+    inner.refraction = 1.0f; // the default, of which the rows say nothing
+    sphere.interior = fixture_interior(f, inner);
     fixture_object(f, sphere);
 }
 

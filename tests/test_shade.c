@@ -34,10 +34,10 @@ static void add_row(Fixture *f, const Row *row, int index) {
     Layer layer = {fixture_plain(f, row->color), row->value, NO_INDEX};
     Object sphere = fixture_sphere(vec3(CELL * index, 0, 0), 1.0);
     sphere.texture = fixture_texture(f, &layer, 1);
-    if (row->interior != NULL)
-        Interior inner = row->inner;
+    Interior inner = row->inner;
     inner.refraction = 1.0f; // the default, of which the rows say nothing
-    sphere.interior = fixture_interior(f, inner);
+    if (row->interior != NULL)
+        sphere.interior = fixture_interior(f, inner);
     fixture_object(f, sphere);
 }
 

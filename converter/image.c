@@ -88,6 +88,15 @@ static void parse_gamma(Converter *cv, Picture *picture) {
         die_at(&loc, "the gamma value must be positive");
 }
 
+// premultiplied [F]
+static void parse_premultiplied(Converter *cv) {
+    Loc loc = here(cv);
+    expect(cv, KW_premultiplied, "a picture");
+    if (parse_optional_bool(cv))
+        warn_at(&loc, "premultiplied is not modelled: where the picture is transparent its colours "
+                      "will be darker than POV-Ray's");
+}
+
 // [V] [TYPE] S [gamma F | gamma srgb] [premultiplied F]  |  function W, H { BODY }
 void parse_image(Converter *cv, Picture *picture, bool to_working) {
     *picture = picture_default();
@@ -113,8 +122,8 @@ void parse_image(Converter *cv, Picture *picture, bool to_working) {
     for (;;) {
         if (accept(cv, KW_gamma))
             parse_gamma(cv, picture);
-        else if (accept(cv, KW_premultiplied))
-            parse_optional_bool(cv);
+        else if (next_is(cv, KW_premultiplied))
+            parse_premultiplied(cv);
         else
             return;
     }

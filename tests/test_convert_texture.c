@@ -246,6 +246,10 @@ static void middle_colors(void **state) {
                     "} }");
     assert_color(p.color, 0, 1, 0, 0, 0);
     assert_warns("sphere { 0, 1 pigment { tiling 3 } }", "the pattern 'tiling' is not modelled");
+    // It was read and ignored without a word.
+    assert_warns(
+        "sphere { 0, 1 pigment { image_map { png \"scenes/uv/uv.png\" premultiplied on } } }",
+        "premultiplied is not modelled");
     assert_warns("sphere { 0, 1 texture { tiling 1 texture_map { [0 pigment { rgb 1 }] } } }",
                  "a texture with 'tiling'");
     assert_warns("sphere { 0, 1 pigment { rgb 1 } normal { tiling 3 } }", "a normal with 'tiling'");

@@ -49,7 +49,7 @@ LIB_C    = $(filter-out $(MAINS) $(KERNEL),$(wildcard converter/*.c src/*/*.c))
 LIB_CXX  = src/image/image_oiio.cpp
 PROGRAMS = pov2qi $(patsubst src/cmd/%.c,%,$(wildcard src/cmd/*.c))
 TESTS    = $(patsubst tests/%.c,%,$(wildcard tests/test_*.c))
-TEST_LIB = $(filter-out $(wildcard tests/test_*.c tests/bench_*.c),$(wildcard tests/*.c))
+TEST_LIB = $(filter-out $(wildcard tests/test_*.c),$(wildcard tests/*.c))
 
 OBJ      = $(LIB_C:%.c=build/%.o) $(KERNEL_OBJ)
 TEST_OBJ = $(LIB_C:%.c=build/test/%.o) $(KERNEL_TEST)
@@ -95,12 +95,6 @@ build/pov2qi: build/converter/main.o $(OBJ)
 build/qi%: build/src/cmd/qi%.o $(OBJ)
 	@echo '  LD  $@'
 	@$(CC) -fopenmp -o $@ $^ $(LIBS)
-
-# Rays a second beside Embree, where it is installed.
-EMBREE = $(if $(wildcard /usr/include/embree3/rtcore.h),-lembree3)
-build/bench_rays: tests/bench_rays.c $(OBJ)
-	@echo '  LD  $@'
-	@$(CC) $(C11) $(CFLAGS) $(if $(EMBREE),-DWITH_EMBREE) -o $@ $^ $(EMBREE) $(LIBS)
 
 # One object of all that the library needs, in which only the public names are visible.
 build/libqipatch.a: $(filter build/src/patch/% build/src/kernel/% build/src/base/%,$(OBJ))
@@ -237,13 +231,10 @@ report: deps
 	@mkdir -p build
 	@build/qibench sweep --html build/report $(REPORT_SCENES)
 
-bench-rays: build/bench_rays
-	@build/bench_rays
-
 # Rays at all extremes, judged by an exact oracle; STRESS="--rays 1e6 --case cusp" for less.
 stress: deps
 	@$(MAKE) --no-print-directory -j$$(nproc) build/stress
 	@tests/stress.sh $(STRESS)
 
-.PHONY: report sheet examples-pictures examples-speed points install all deps test solids test-examples test-povray fuzz lint demo gallery bench bench-rays stress clean expressions bench-parse
+.PHONY: report sheet examples-pictures examples-speed points install all deps test solids test-examples test-povray fuzz lint demo gallery bench stress clean expressions bench-parse
 -include $(shell find build -name '*.d' 2>/dev/null)

@@ -4,6 +4,7 @@
 #include "base/diag.h"
 
 #include "base/console.h"
+#include "base/hash.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -114,10 +115,7 @@ void die_at(const Loc *loc, const char *format, ...) {
 static bool said_before(const char *message) {
     enum { SLOTS = 4096, PROBES = 64 };
     static uint64_t said[SLOTS];
-    uint64_t hash = 1469598103934665603u; // FNV-1a
-    for (const char *p = message; *p; p++)
-        hash = (hash ^ (unsigned char)*p) * 1099511628211u;
-    hash |= 1; // 0 is a free slot
+    uint64_t hash = hash_bytes(HASH_START, message, strlen(message)) | 1; // 0 is a free slot
     for (uint64_t i = 0; i < PROBES; i++) {
         uint64_t *slot = &said[(hash / 2 + i) % SLOTS];
         if (*slot == hash)

@@ -88,7 +88,6 @@ static Spread spread_of(const double *values, int count) {
 // ---- Errors
 
 typedef struct {
-    const Scene *scene;
     const SweepOptions *options;
     const SweepShared *truth;
     Footprint footprint;
@@ -310,8 +309,7 @@ Sweep *sweep_run(const SweepOptions *o, Arena *arena) {
     Camera smooth = scene->camera;
     smooth.has_normal = false;
     CameraView view = camera_view(&smooth, NULL, o->width, o->height);
-    Judge judge = {.scene = scene,
-                   .options = o,
+    Judge judge = {.options = o,
                    .truth = truth,
                    .footprint = footprint_create(&view, 1.0),
                    .diameter = find_diameters(scene, arena),

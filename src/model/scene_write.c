@@ -7,6 +7,7 @@
 
 #include "base/diag.h"
 #include "base/file.h"
+#include "base/hash.h"
 #include "model/json_layout.h"
 #include "model/scene_binary.h"
 #include "model/file_path.h"
@@ -519,18 +520,16 @@ void scene_write(const Scene *scene, const char *path, const SceneWriteOptions *
 
 // ---- a hash -----------------------------------------------------------------------------------
 
-// FNV-1a of what is written to the stream.
-static ssize_t hash_bytes(void *cookie, const char *bytes, size_t size) {
-    uint64_t *hash = cookie, h = *hash;
-    for (size_t i = 0; i < size; i++)
-        h = (h ^ (unsigned char)bytes[i]) * 0x100000001b3U;
-    *hash = h;
+// What is written to the stream goes into the hash that cookie points to.
+static ssize_t hash_written(void *cookie, const char *bytes, size_t size) {
+    uint64_t *hash = cookie;
+    *hash = hash_bytes(*hash, bytes, size);
     return (ssize_t)size;
 }
 
 uint64_t scene_hash(const Scene *scene) {
-    uint64_t text = 0xcbf29ce484222325U, numbers = text;
-    const cookie_io_functions_t hashing = {.write = hash_bytes};
+    uint64_t text = HASH_START, numbers = HASH_START;
+    const cookie_io_functions_t hashing = {.write = hash_written};
     const SceneWriteOptions options = {.binary = true};
     Writer w = {.scene = scene, .path = "-", .options = &options, .scratch = arena_create()};
     w.out = fopencookie(&text, "w", hashing);

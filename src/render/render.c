@@ -4,6 +4,7 @@
 #include "render/render.h"
 
 #include "base/diag.h"
+#include "base/hash.h"
 #include "base/progress.h"
 #include "render/aov.h"
 #include "render/film.h"
@@ -128,12 +129,8 @@ static uint64_t identity_of(const Scene *scene, const RenderOptions *o) {
                             o->sampling_method, o->antialias_depth, o->jitter,
                             o->jitter_amount,   o->antialias_gamma, o->quality,
                             o->alpha,           o->method,          o->finer,
-                            o->tolerance,       o->pixels};
-    uint64_t hash = scene_hash(scene);
-    const unsigned char *bytes = (const unsigned char *)facts;
-    for (size_t i = 0; i < sizeof facts; i++)
-        hash = (hash ^ bytes[i]) * 0x100000001b3U;
-    return hash;
+                            o->tolerance,       o->pixels,          o->prepare};
+    return hash_bytes(scene_hash(scene), facts, sizeof facts);
 }
 
 static void begin_resume(Job *job) {

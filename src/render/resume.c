@@ -3,6 +3,7 @@
 
 #include "base/arena.h"
 #include "base/diag.h"
+#include "base/hash.h"
 #include "base/progress.h"
 
 #include <assert.h>
@@ -48,13 +49,9 @@ static size_t pixels_of(PixelRect tile) {
     return (size_t)(tile.right - tile.left) * (size_t)(tile.bottom - tile.top);
 }
 
-// FNV-1a over the tile's number and its colours.
+// Over the tile's number and its colours.
 static uint64_t check_of(int tile, const Color *colors, size_t count) {
-    uint64_t hash = (0xcbf29ce484222325U ^ (uint64_t)tile) * 0x100000001b3U;
-    const unsigned char *bytes = (const unsigned char *)colors;
-    for (size_t i = 0; i < count * sizeof *colors; i++)
-        hash = (hash ^ bytes[i]) * 0x100000001b3U;
-    return hash;
+    return hash_bytes(hash_bytes(HASH_START, &tile, sizeof tile), colors, count * sizeof *colors);
 }
 
 static Header header_of(const ResumeJob *job) {

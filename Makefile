@@ -236,5 +236,25 @@ stress: deps
 	@$(MAKE) --no-print-directory -j$$(nproc) build/stress
 	@tests/stress.sh $(STRESS)
 
-.PHONY: report sheet examples-pictures examples-speed points install all deps test solids test-examples test-povray fuzz lint demo gallery bench stress clean expressions bench-parse
+.PHONY: all
+.PHONY: bench
+.PHONY: bench-parse
+.PHONY: clean
+.PHONY: demo
+.PHONY: deps
+.PHONY: examples-pictures
+.PHONY: examples-speed
+.PHONY: expressions
+.PHONY: fuzz
+.PHONY: gallery
+.PHONY: install
+.PHONY: lint
+.PHONY: points
+.PHONY: report
+.PHONY: sheet
+.PHONY: solids
+.PHONY: stress
+.PHONY: test
+.PHONY: test-examples
+.PHONY: test-povray
 -include $(shell find build -name '*.d' 2>/dev/null)

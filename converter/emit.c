@@ -57,6 +57,8 @@ static uint32_t store_interior(Emitter *e, const InteriorNode *node) {
     Interior interior = node ? node->interior : interior_default();
     if (node)
         emit_gaps(e, node->gaps);
+    if (node && !node->bends)
+        interior.ior = interior.dispersion = 1.0F;
     array_push(&e->interiors, interior);
     return (uint32_t)(e->interiors.count - 1);
 }
@@ -73,8 +75,10 @@ static void take_from_finish(Emitter *e, uint32_t index, const TextureNode *text
         return;
     Interior *interior = &e->interiors.items[index];
     interior->refraction = texture->finish->refraction;
-    if (texture->finish->ior >= 0)
-        interior->ior = texture->finish->ior;
+    if (texture->finish->ior >= 0) {
+        interior->ior = texture->finish->ior == 0.0F ? 1.0F : texture->finish->ior;
+        interior->dispersion = 1.0F;
+    }
     if (texture->finish->caustics >= 0)
         interior->caustics = texture->finish->caustics;
 }

@@ -2,12 +2,23 @@
 // interior{}, media{} and material{} (facts: sdl 4.8, textures 1.2).
 #include "converter/nodes.h"
 
+#include <math.h>
+
+static float parse_dispersion(Converter *cv) {
+    Loc loc = here(cv);
+    float dispersion = (float)parse_float(cv);
+    if (!(dispersion > 0.0F && isfinite(dispersion)))
+        die_at(&loc, "The dispersion must be positive");
+    return dispersion;
+}
+
 static bool parse_interior_number(Converter *cv, InteriorNode *node, int code) {
     Interior *interior = &node->interior;
     switch (code) {
     case KW_ior:
         next_token(cv);
         interior->ior = (float)parse_float(cv);
+        node->bends = interior->ior != 0.0F;
         return true;
     case KW_caustics:
         next_token(cv);
@@ -32,7 +43,12 @@ static bool parse_interior_number(Converter *cv, InteriorNode *node, int code) {
         return true;
     case KW_dispersion_samples:
         next_token(cv);
-        parse_float(cv);
+        interior->dispersion_samples =
+            (int)number_within(cv, "number of dispersion samples", 2, INTERIOR_MAX_DISPERSION);
+        return true;
+    case KW_dispersion:
+        next_token(cv);
+        interior->dispersion = parse_dispersion(cv);
         return true;
     default:
         return false;
@@ -43,12 +59,6 @@ static bool parse_interior_item(Converter *cv, InteriorNode *node) {
     const Token *token = peek_token(cv);
     if (parse_interior_number(cv, node, token->code))
         return true;
-    if (accept(cv, KW_dispersion)) {
-        if (parse_float(cv) != 1.0)
-            note_gap(cv, &node->gaps, token,
-                     "dispersion is not modelled: refracted light keeps its colour together");
-        return true;
-    }
     if (accept(cv, KW_media))
         parse_media_block(cv);
     else if (!accept_value(cv, VALUE_MEDIA))

@@ -158,6 +158,7 @@ typedef struct TextureNode {
 
 typedef struct {
     Interior interior;
+    bool bends; // an ior was written, and not 0: without one POV-Ray has no dispersion either
     const Gap *gaps;
 } InteriorNode;
 

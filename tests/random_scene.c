@@ -419,6 +419,8 @@ static Interior make_interior(Rng *rng) {
         .fade_power = random_float(rng),
         .fade_color = random_rgb(rng),
         .refraction = random_float(rng),
+        .dispersion = (float)rng_range(rng, 0.5, 2),
+        .dispersion_samples = 2 + (int)random_below(rng, 100),
     };
 }
 

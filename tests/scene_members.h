@@ -141,7 +141,9 @@
     X(float, fade_distance)                                                                        \
     X(float, fade_power)                                                                           \
     X(Rgb, fade_color)                                                                             \
-    X(float, refraction)
+    X(float, refraction)                                                                           \
+    X(float, dispersion)                                                                           \
+    X(int, dispersion_samples)
 #define OBJECT_FLAGS(X)                                                                            \
     X(bool, no_shadow)                                                                             \
     X(bool, no_image)                                                                              \

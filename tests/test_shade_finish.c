@@ -57,6 +57,37 @@ static void caustics(void **state) {
     fixture_compare_now();
 }
 
+// Into air, into and out of a body inside, with other samples; overlapping bodies; totally
+// reflected in some colours only; without an ior there is none; the second body along the way bends
+// rays that are of one colour already.
+static void dispersion(void **state) {
+    (void)state;
+    static const char *const rows[] = {
+        "sphere { 0.3*y, 1 pigment { rgbf <0.9, 0.8, 0.7, 0.9> }\n"
+        "  interior { ior 1.5 dispersion 1.3 dispersion_samples 12 } }",
+        "sphere { 0.3*y, 1 pigment { rgbt 0.8 } finish { reflection { 0, 1 fresnel } "
+        "conserve_energy }\n"
+        "  normal { bumps 0.3 scale 0.4 } interior { ior 0.9 dispersion 0.8 } }",
+        "sphere { 0.3*y, 1 pigment { rgbt 0.8 } interior { dispersion 0.8 } }",
+        "sphere { 0.3*y, 1.2 pigment { rgbf 0.9 } interior { ior 1.6 dispersion 1.1\n"
+        "  dispersion_samples 3 } } sphere { 0.2*y, 0.7 pigment { rgbf 0.9 } interior { ior 1.1\n"
+        "  dispersion 1.5 dispersion_samples 5 } } sphere { <0.9, 0.3, -0.5>, 0.5 pigment { rgbf "
+        "0.8 }\n"
+        "  interior { ior 1.2 } }",
+        "sphere { 0.3*y, 1 pigment { rgbf 0.9 } finish { ior 1.2 } interior { ior 1.5 dispersion "
+        "1.3\n"
+        "  } } sphere { <1.5, 0.3, 0>, 0.7 pigment { rgbf 0.9 } interior { ior 0 dispersion 2 } }",
+        "box { -1, 1 rotate <20, 30, 0> pigment { rgbf 0.95 } interior { ior 1.4 dispersion 1.08\n"
+        "  fade_distance 2 fade_power 1 } }",
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        char text[2048];
+        snprintf(text, sizeof text, "%s%s\n", STAGE, rows[i]);
+        fixture_compare_later(fixture_read(36, 30, text), 9, false);
+    }
+    fixture_compare_now();
+}
+
 // The factor of old scenes: that of a plain texture's finish replaces the interior's.
 static void refraction_dims(void **state) {
     (void)state;
@@ -82,6 +113,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(qualities),
         cmocka_unit_test(caustics),
+        cmocka_unit_test(dispersion),
         cmocka_unit_test(refraction_dims),
     };
     return cmocka_run_group_tests_name("shade_finish", tests, NULL, NULL);

@@ -62,7 +62,9 @@ Light light_default(LightType type) {
     return light;
 }
 
-Interior interior_default(void) { return (Interior){.ior = 1.0f, .refraction = 1.0f}; }
+Interior interior_default(void) {
+    return (Interior){.ior = 1.0f, .refraction = 1.0f, .dispersion = 1.0f, .dispersion_samples = 7};
+}
 
 Fog fog_default(void) {
     return (Fog){.up = {0, 1, 0}, .turbulence = turbulence_default(), .turb_depth = 0.5f};
@@ -215,6 +217,7 @@ bool object_is_tree(const Object *object) {
     X(cylinder_light)                                                                              \
     X(cylindrical)                                                                                 \
     X(density_file)                                                                                \
+    X(dispersion)                                                                                  \
     X(dents)                                                                                       \
     X(diffuse_back)                                                                                \
     X(disc)                                                                                        \
@@ -454,6 +457,7 @@ static void collect_textures(const Scene *scene, FeatureSet *set) {
         const Interior *interior = &scene->interiors[i];
         need(set, FEATURE_refraction, interior->ior != 1);
         need(set, FEATURE_caustics, interior->caustics != 0);
+        need(set, FEATURE_dispersion, interior->dispersion != 1);
         need(set, FEATURE_interior_fade, interior->fade_distance != 0);
     }
 }

@@ -430,12 +430,17 @@ typedef struct {
     uint32_t entry_count;
 } Texture;
 
+// A refracted ray becomes so many.
+enum { INTERIOR_MAX_DISPERSION = 100000 };
+
 typedef struct {
     float ior;      // 1 when unset
     float caustics; // as written x 45
     float fade_distance, fade_power;
     Rgb fade_color;
-    float refraction; // what is seen through a surface is scaled by it; default 1
+    float refraction;       // what is seen through a surface is scaled by it; default 1
+    float dispersion;       // ior of violet light to that of red light; 1: light keeps together
+    int dispersion_samples; // 2 to INTERIOR_MAX_DISPERSION, default 7
 } Interior;
 
 // ---- objects --------------------------------------------------------------------------------

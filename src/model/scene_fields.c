@@ -151,6 +151,8 @@ static const Field INTERIOR_FIELDS[] = {
     FLOAT(Interior, fade_power, "fade_power"),
     RGB(Interior, fade_color, "fade_color"),
     FLOAT(Interior, refraction, "refraction"),
+    FLOAT(Interior, dispersion, "dispersion"),
+    INT(Interior, dispersion_samples, "dispersion_samples"),
     END,
 };
 static void default_interior(void *out) { *(Interior *)out = interior_default(); }

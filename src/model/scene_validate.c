@@ -107,6 +107,10 @@ static void check_interior(const Check *c, const FieldPath *path, const Interior
     check_float(c, path, "fade_power", interior->fade_power);
     check_rgb(c, path, "fade_color", interior->fade_color);
     check_float(c, path, "refraction", interior->refraction);
+    check_size(c, path, "dispersion", interior->dispersion);
+    check_not_zero(c, path, "dispersion", interior->dispersion);
+    check_range(c, path, "dispersion_samples", interior->dispersion_samples, 2,
+                INTERIOR_MAX_DISPERSION);
 }
 
 static void check_sky_sphere(const Check *c) {

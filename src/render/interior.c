@@ -12,6 +12,13 @@ const Interior *body_interior(const Scene *scene, uint32_t body) {
     return body < scene->interior_count ? &scene->interiors[body] : NULL;
 }
 
+static const Interior *interior_or_air(const Scene *scene, uint32_t body) {
+    static const Interior AIR = {
+        .ior = 1.0f, .refraction = 1.0f, .dispersion = 1.0f, .dispersion_samples = 7};
+    const Interior *interior = body_interior(scene, body);
+    return interior != NULL ? interior : &AIR;
+}
+
 float body_ior(const Scene *scene, uint32_t body) {
     const Interior *interior = body_interior(scene, body);
     return interior != NULL ? interior->ior : 1.0f;
@@ -55,10 +62,33 @@ static const InteriorList *innermost_but(const InteriorList *list, uint32_t body
     return NULL;
 }
 
-double interior_cross(const Scene *scene, const InteriorList *list, uint32_t body,
-                      InteriorList *node, const InteriorList **after) {
+// POV-Ray keeps the indices as float: between two bodies the quotient is rounded to float, against
+// the open (a double 1) it is not.
+static Bending leave(const Scene *scene, uint32_t body, const InteriorList *next) {
+    const Interior *from = interior_or_air(scene, body);
+    Bending bending = {from->ior, from->dispersion, from->dispersion_samples};
+    if (next != NULL) {
+        const Interior *to = interior_or_air(scene, next->body);
+        bending.ior = from->ior / to->ior;
+        bending.dispersion = from->dispersion / to->dispersion;
+        if (to->dispersion_samples > bending.samples)
+            bending.samples = to->dispersion_samples;
+    }
+    return bending;
+}
+
+static Bending enter(const Scene *scene, uint32_t body, const InteriorList *last) {
+    const Interior *to = interior_or_air(scene, body);
+    if (last == NULL)
+        return (Bending){1.0 / to->ior, 1.0 / to->dispersion, to->dispersion_samples};
+    const Interior *from = interior_or_air(scene, last->body);
+    return (Bending){from->ior / to->ior, from->dispersion / to->dispersion,
+                     to->dispersion_samples};
+}
+
+Bending interior_cross(const Scene *scene, const InteriorList *list, uint32_t body,
+                       InteriorList *node, const InteriorList **after) {
     const InteriorList *last = innermost(list);
-    float ior = body_ior(scene, body);
     if (last != NULL && last->body == body) {
         const InteriorList *next = innermost_but(list, body);
         if (last == list) {
@@ -67,19 +97,16 @@ double interior_cross(const Scene *scene, const InteriorList *list, uint32_t bod
             *node = (InteriorList){list, body, true};
             *after = next == NULL ? NULL : node;
         }
-        // POV-Ray keeps the indices as float: between two bodies the quotient is rounded to float,
-        // against the open (a double 1) it is not.
-        return next == NULL ? (double)ior : (double)(ior / body_ior(scene, next->body));
-    }
-    if (interior_inside(list, body)) {
-        // Overlapping bodies: the other one was taken to begin where this one still went on.
-        *node = (InteriorList){list, body, true};
-        *after = node;
-        return 1.0;
+        return leave(scene, body, next);
     }
     *node = (InteriorList){list, body, false};
     *after = node;
-    return last == NULL ? 1.0 / ior : (double)(body_ior(scene, last->body) / ior);
+    if (interior_inside(list, body)) {
+        // Overlapping bodies: the other one was taken to begin where this one still went on.
+        node->left = true;
+        return (Bending){1.0, 1.0, 0};
+    }
+    return enter(scene, body, last);
 }
 
 double interior_relative_ior(const Scene *scene, const InteriorList *list, uint32_t body) {

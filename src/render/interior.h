@@ -25,11 +25,16 @@ bool interior_inside(const InteriorList *list, uint32_t body);
 // Are all bodies around hollow (one flag a body)?
 bool interior_hollow(const InteriorList *list, const bool *hollow);
 
+// How light bends at a surface: ratios here / beyond.
+typedef struct {
+    double ior, dispersion;
+    int samples; // of the spectrum, where dispersion is not 1
+} Bending;
+
 // Crosses the surface of body: the first crossing enters, the second leaves, whatever side it is.
-// node is the new ray's own storage, *after its list. Returns the ratio of the refraction indices
-// (here / beyond).
-double interior_cross(const Scene *scene, const InteriorList *list, uint32_t body,
-                      InteriorList *node, const InteriorList **after);
+// node is the new ray's own storage, *after its list.
+Bending interior_cross(const Scene *scene, const InteriorList *list, uint32_t body,
+                       InteriorList *node, const InteriorList **after);
 
 // The index of the body relative to what surrounds it, inverted when the ray is inside: what
 // Fresnel's reflection is computed with.

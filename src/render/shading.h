@@ -9,6 +9,7 @@
 //   reflect.c     reflectivity and the reflected direction
 //   interior.c    the list of bodies a ray is in
 //   refract.c     the refracted direction, fading
+//   dispersion.c  the colours that refraction takes apart
 //   atmosphere.c  what a ray sees that hits nothing
 //   fog.c rainbow.c  what lies before anything that a ray sees
 #ifndef RENDER_SHADING_H
@@ -46,6 +47,8 @@ typedef struct {
     double start, width, arc, falloff;
 } BowAngles;
 
+enum { DISPERSION_HUES = 74 }; // one every 5 nm
+
 struct Shading {
     const Scene *scene;
     const World *world;
@@ -63,7 +66,8 @@ struct Shading {
     bool groups;          // some light does not shine on everything
     bool grainy;          // crand or a jitter draws random numbers
     BowAngles *bows;      // one per rainbow
-    size_t grid_limit;    // points in the largest area light
+    Rgb hues[DISPERSION_HUES];
+    size_t grid_limit; // points in the largest area light
     Arena *arena;
 };
 
@@ -76,7 +80,8 @@ typedef struct {
     int level;        // counts up to max_trace_level; passing straight through costs none
     uint32_t nesting; // rays between this and the camera ray, of whatever kind
     RayKind kind;
-    bool alpha; // the background is transparent to this ray
+    bool alpha;       // the background is transparent to this ray
+    float wavelength; // in nm, of a ray that dispersion has split off; 0: all of them
 } Path;
 
 // A light seen from the current hit: worked out once and kept for all layers.
@@ -207,6 +212,17 @@ Rgb refract_fade(const Interior *interior, double distance);
 // Traces what is seen through the surface; true: total internal reflection took its place.
 bool refract_trace(Tracer *tracer, const Surface *surface, const Finish *finish, Vec3 normal,
                    float weight, Color *color);
+
+// dispersion.c
+// A part of the spectrum: its middle, and what of white light it is, times the number of bands.
+typedef struct {
+    float wavelength;
+    Rgb hue;
+} Band;
+void dispersion_prepare(Shading *shading); // fills hues
+Band dispersion_band(const Shading *shading, int index, int count);
+// The ratio of the indices at that wavelength.
+double dispersion_ratio(double ratio, double dispersion, float wavelength);
 
 // atmosphere.c
 Color atmosphere_sky(const Shading *shading, Vec3 dir, bool alpha);

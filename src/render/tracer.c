@@ -118,6 +118,7 @@ Shading *shading_create(const Scene *scene, const World *world, const TraceOptio
     prepare_bodies(shading);
     shading->options = *options;
     shading->quality = quality_of(options->quality);
+    dispersion_prepare(shading);
     shading->legacy = scene->settings.version < 370;
     prepare_objects(shading);
     shading->layer_limit = texture_layer_limit(scene);

@@ -264,8 +264,7 @@ static uint32_t emit_leaf(Emitter *e, const ObjectNode *node, const Inherited *o
     apply_flags(&object, own);
     if (object.type != OBJECT_PATCH)
         emit_clips(e, node, &object);
-    if (!emit_solid(e, node, own->body, &object))
-        return NO_INDEX;
+    emit_solid(e, node, own->body, &object);
     if (own->body)
         return store_object(e, &object);
     object.texture = emit_texture(e, own->texture);

@@ -101,8 +101,7 @@ void emit_warps(Emitter *e, const PatternNode *node, Pattern *pattern);
 uint64_t pattern_hash(uint64_t hash, const Pattern *pattern);
 
 // emit_solid.c: fills what the object keeps in the pools of the scene. bare: without textures.
-// False: it cannot be shown; that has been said.
-bool emit_solid(Emitter *e, const ObjectNode *node, bool bare, Object *object);
+void emit_solid(Emitter *e, const ObjectNode *node, bool bare, Object *object);
 uint32_t emit_pigment(Emitter *e, const PatternNode *pigment);
 // A missing normal (NULL) bends nothing. no_bump_scale: the texture around has it.
 uint32_t emit_normal(Emitter *e, const PatternNode *normal, bool no_bump_scale);

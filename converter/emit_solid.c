@@ -44,24 +44,16 @@ static void emit_blob(Emitter *e, const ObjectNode *node, bool bare, BlobShape *
             blob->components[i].texture = emit_texture(e, node->textures[i]);
 }
 
-static bool emit_isosurface(Emitter *e, const ObjectNode *node, IsosurfaceShape *iso) {
-    iso->function = emit_function(e, node->function);
-    if (!function_asks_pigment(e->functions.items, iso->function))
-        return true;
-    emit_gap(e, node->loc,
-             "an isosurface whose function asks a pigment or a pattern is not modelled: the object "
-             "is missing in the picture");
-    return false;
-}
-
-bool emit_solid(Emitter *e, const ObjectNode *node, bool bare, Object *object) {
+void emit_solid(Emitter *e, const ObjectNode *node, bool bare, Object *object) {
     if (object->type == OBJECT_MESH)
         emit_mesh(e, node, bare, &object->shape.mesh);
     else if (object->type == OBJECT_HEIGHT_FIELD)
         object->shape.height_field.map = pool_map(e, node->map);
     else if (object->type == OBJECT_ISOSURFACE)
-        return emit_isosurface(e, node, &object->shape.isosurface);
+        object->shape.isosurface.function = emit_function(e, node->functions[0]);
+    else if (object->type == OBJECT_PARAMETRIC)
+        for (int axis = 0; axis < 3; axis++)
+            object->shape.parametric.functions[axis] = emit_function(e, node->functions[axis]);
     else if (object->type == OBJECT_BLOB)
         emit_blob(e, node, bare, &object->shape.blob);
-    return true;
 }

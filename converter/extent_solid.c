@@ -70,6 +70,11 @@ static Box ovus_box(const OvusShape *ovus) {
     return (Box){vec3(-r, -ovus->bottom, -r), vec3(r, ovus->bottom + ovus->top, r)};
 }
 
+static Box container_box(const Container *container) {
+    return container->in_sphere ? ball_box(box_empty(), container->center, container->radius)
+                                : (Box){container->low, container->high};
+}
+
 static Box rows_box(const double *rows, uint32_t count) {
     Box box = box_empty();
     for (uint32_t i = 0; i < count; i++)
@@ -122,11 +127,10 @@ Box solid_extent(const ObjectNode *node) {
         return rows_box(node->mesh->points, node->mesh->point_count);
     case OBJECT_HEIGHT_FIELD:
         return height_box(&object->shape.height_field, node->map);
-    case OBJECT_ISOSURFACE: {
-        const IsosurfaceShape *iso = &object->shape.isosurface;
-        return iso->in_sphere ? ball_box(box_empty(), iso->center, iso->radius)
-                              : (Box){iso->low, iso->high};
-    }
+    case OBJECT_ISOSURFACE:
+        return container_box(&object->shape.isosurface.container);
+    case OBJECT_PARAMETRIC:
+        return container_box(&object->shape.parametric.container);
     case OBJECT_TEXT:
         return text_box(&object->shape.text);
     default:

@@ -1,27 +1,27 @@
 // SPDX-License-Identifier: MIT
-// isosurface (facts: sdl 4.2).
+// isosurface, parametric (facts: sdl 4.2).
 #include "converter/nodes.h"
 
 #include <math.h>
 
 // contained_by { box { V, V } | sphere { V, F } }
-static void parse_container(Converter *cv, IsosurfaceShape *iso) {
+static void parse_container(Converter *cv, Container *out) {
     expect(cv, '{', "contained_by");
     if (accept(cv, KW_box)) {
         expect(cv, '{', "box");
         Vec3 a = parse_vector(cv);
         optional_comma(cv);
         Vec3 b = parse_vector(cv);
-        iso->in_sphere = false;
-        iso->low = vec_min(a, b);
-        iso->high = vec_max(a, b);
+        out->in_sphere = false;
+        out->low = vec_min(a, b);
+        out->high = vec_max(a, b);
     } else {
         expect(cv, KW_sphere, "contained_by");
         expect(cv, '{', "sphere");
-        iso->in_sphere = true;
-        iso->center = parse_vector(cv);
+        out->in_sphere = true;
+        out->center = parse_vector(cv);
         optional_comma(cv);
-        iso->radius = fabs(parse_float(cv));
+        out->radius = fabs(parse_float(cv));
     }
     expect(cv, '}', "contained_by");
     expect(cv, '}', "contained_by");
@@ -40,7 +40,7 @@ static double parse_positive(Converter *cv, const Token *token, double usual) {
 static bool parse_option(Converter *cv, IsosurfaceShape *iso) {
     const Token *token = peek_token(cv);
     if (accept(cv, KW_contained_by)) {
-        parse_container(cv, iso);
+        parse_container(cv, &iso->container);
     } else if (accept(cv, KW_threshold)) {
         iso->threshold = parse_float(cv);
     } else if (accept(cv, KW_accuracy)) {
@@ -66,18 +66,64 @@ static bool parse_option(Converter *cv, IsosurfaceShape *iso) {
     return true;
 }
 
-void parse_isosurface(Converter *cv, ObjectNode *object) {
-    IsosurfaceShape *iso = &object->object.shape.isosurface;
+// function { ... } [,] of three arguments, to one number
+static const UserFunction *parse_function_of(Converter *cv, const char *where) {
     const Token *token = peek_token(cv);
-    expect(cv, KW_function, "isosurface");
-    object->function = parse_function(cv);
-    if (user_function_parameters(cv, object->function) != 3 ||
-        user_function_width(cv, object->function) != 1) {
+    expect(cv, KW_function, where);
+    const UserFunction *function = parse_function(cv);
+    if (user_function_parameters(cv, function) != 3 || user_function_width(cv, function) != 1) {
         Loc loc = token_loc(cv, token);
-        die_at(&loc, "the function of an isosurface has three arguments and gives one number");
+        die_at(&loc, "a function of '%s' has three arguments and gives one number", where);
     }
     optional_comma(cv);
+    return function;
+}
+
+void parse_isosurface(Converter *cv, ObjectNode *object) {
+    IsosurfaceShape *iso = &object->object.shape.isosurface;
+    object->functions[0] = parse_function_of(cv, "isosurface");
     while (parse_option(cv, iso)) {
     }
-    object->loc = keep_place(cv, token);
+}
+
+// precompute F [,] [x] [,] [y] [,] [z]
+static void parse_precompute(Converter *cv, ParametricShape *shape) {
+    static const int axes[3] = {KW_x, KW_y, KW_z};
+    const Token *token = peek_token(cv);
+    double depth = parse_float(cv);
+    bool any = false;
+    for (int axis = 0; axis < 3; axis++) {
+        optional_comma(cv);
+        shape->precompute[axis] = shape->precompute[axis] || accept(cv, axes[axis]);
+        any = any || shape->precompute[axis];
+    }
+    if (any && !(depth >= 1 && depth < SCENE_MAX_PRECOMPUTE + 1)) {
+        Loc loc = token_loc(cv, token);
+        die_at(&loc, "precompute must be from 1 to %d", SCENE_MAX_PRECOMPUTE);
+    }
+    shape->depth = any ? (int)depth : 1;
+}
+
+void parse_parametric(Converter *cv, ObjectNode *object) {
+    ParametricShape *shape = &object->object.shape.parametric;
+    for (int axis = 0; axis < 3; axis++)
+        object->functions[axis] = parse_function_of(cv, "parametric");
+    Vec2 from = parse_uv(cv);
+    optional_comma(cv);
+    Vec2 to = parse_uv(cv);
+    shape->low[0] = fmin(from.u, to.u), shape->high[0] = fmax(from.u, to.u);
+    shape->low[1] = fmin(from.v, to.v), shape->high[1] = fmax(from.v, to.v);
+    for (;;) {
+        const Token *token = peek_token(cv);
+        if (accept(cv, KW_contained_by))
+            parse_container(cv, &shape->container);
+        else if (accept(cv, KW_accuracy))
+            shape->accuracy = parse_positive(cv, token, 1e-3);
+        else if (accept(cv, KW_max_gradient))
+            shape->max_gradient = parse_positive(cv, token, 1);
+        else if (accept(cv, KW_precompute))
+            parse_precompute(cv, shape);
+        else
+            return;
+    }
 }

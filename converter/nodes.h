@@ -279,9 +279,9 @@ struct ObjectNode {
     bool has_textures;
     const Mesh *mesh; // copies of an object have the same one
     const HeightMap *map;
-    const UserFunction *function; // of an isosurface
-    bool ignored;                 // POV-Ray leaves it out
-    Box box;                      // of a CSG, as extent.c keeps it
+    const UserFunction *functions[3]; // of an isosurface (one) or a parametric
+    bool ignored;                     // POV-Ray leaves it out
+    Box box;                          // of a CSG, as extent.c keeps it
     bool has_box;
     LightNode *light;
     const Loc *loc; // of the statement, if it is not modelled
@@ -312,7 +312,7 @@ ParseShape *shape_parser(int keyword);       // shapes.c, patch.c; NULL: not one
 ParseShape *shape_other_parser(int keyword); // shapes_other.c
 ParseShape *solid_parser(int keyword);       // solid.c and the files named like their statements
 ParseShape parse_patch_data, parse_mesh, parse_mesh2, parse_height_field, parse_text,
-    parse_isosurface;
+    parse_isosurface, parse_parametric;
 // For those: n numbers; a count of at least so many points and the comma behind it.
 void read_floats(Converter *cv, double *out, uint32_t count);
 uint32_t read_count(Converter *cv, const char *what, int least);

@@ -45,6 +45,7 @@ static bool object_type(int keyword, ObjectType *type) {
         {KW_height_field, OBJECT_HEIGHT_FIELD},
         {KW_text, OBJECT_TEXT},
         {KW_isosurface, OBJECT_ISOSURFACE},
+        {KW_parametric, OBJECT_PARAMETRIC},
     };
     for (size_t i = 0; i < sizeof types / sizeof *types; i++)
         if (types[i].keyword == keyword) {
@@ -56,7 +57,8 @@ static bool object_type(int keyword, ObjectType *type) {
 
 static bool keyword_is_surface(int keyword) {
     return keyword == KW_bicubic_patch || keyword == KW_triangle || keyword == KW_smooth_triangle ||
-           keyword == KW_mesh || keyword == KW_mesh2 || keyword == KW_polygon;
+           keyword == KW_mesh || keyword == KW_mesh2 || keyword == KW_polygon ||
+           keyword == KW_parametric;
 }
 
 ObjectNode *object_create(Converter *cv, int keyword) {

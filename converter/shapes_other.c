@@ -11,22 +11,6 @@ static void floats(Converter *cv, int count) {
     }
 }
 
-static void vectors(Converter *cv, int count) {
-    for (int i = 0; i < count; i++) {
-        if (i > 0)
-            optional_comma(cv);
-        parse_vector(cv);
-    }
-}
-
-static void uvs(Converter *cv, int count) {
-    for (int i = 0; i < count; i++) {
-        if (i > 0)
-            optional_comma(cv);
-        parse_uv(cv);
-    }
-}
-
 static bool accept_any(Converter *cv, const int *codes, size_t count) {
     for (size_t i = 0; i < count; i++)
         if (accept(cv, codes[i]))
@@ -34,59 +18,6 @@ static bool accept_any(Converter *cv, const int *codes, size_t count) {
     return false;
 }
 #define ACCEPT_ANY(cv, codes) accept_any((cv), (codes), sizeof(codes) / sizeof *(codes))
-
-// ---- functions and fractals
-// -------------------------------------------------------------------------------
-
-static void parse_contained_by(Converter *cv) {
-    expect(cv, '{', "contained_by");
-    if (accept(cv, KW_box)) {
-        expect(cv, '{', "box");
-        vectors(cv, 2);
-    } else {
-        expect(cv, KW_sphere, "contained_by");
-        expect(cv, '{', "sphere");
-        parse_vector(cv);
-        optional_comma(cv);
-        parse_float(cv);
-    }
-    expect(cv, '}', "contained_by");
-    expect(cv, '}', "contained_by");
-}
-
-static bool parse_function_option(Converter *cv) {
-    static const int numbers[] = {KW_threshold, KW_accuracy, KW_max_gradient, KW_max_trace};
-    static const int words[] = {KW_all_intersections, KW_open};
-    if (ACCEPT_ANY(cv, numbers)) {
-        parse_float(cv);
-    } else if (accept(cv, KW_evaluate)) {
-        floats(cv, 3);
-    } else if (accept(cv, KW_contained_by)) {
-        parse_contained_by(cv);
-    } else if (accept(cv, KW_precompute)) {
-        parse_float(cv);
-        while (accept(cv, ',') || accept(cv, KW_x) || accept(cv, KW_y) || accept(cv, KW_z)) {
-        }
-    } else if (!ACCEPT_ANY(cv, words)) {
-        return false;
-    }
-    return true;
-}
-
-static void parse_function_body(Converter *cv, const char *where) {
-    expect(cv, KW_function, where);
-    parse_function(cv);
-    optional_comma(cv);
-}
-
-static void parse_parametric(Converter *cv, ObjectNode *object) {
-    (void)object;
-    for (int i = 0; i < 3; i++)
-        parse_function_body(cv, "parametric");
-    uvs(cv, 2);
-    while (parse_function_option(cv)) {
-    }
-}
 
 // V4 [,] F
 static void parse_slice(Converter *cv) {
@@ -140,7 +71,6 @@ ParseShape *shape_other_parser(int keyword) {
         ParseShape *parse;
     } shapes[] = {
         {KW_julia_fractal, parse_julia_fractal},
-        {KW_parametric, parse_parametric},
     };
     for (size_t i = 0; i < sizeof shapes / sizeof *shapes; i++)
         if (shapes[i].keyword == keyword)

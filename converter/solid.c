@@ -492,6 +492,11 @@ static bool blob_is_finite(const BlobShape *blob) {
 }
 
 // Meshes and pictures have been made finite, or are checked with the pools of the scene.
+static bool container_is_finite(const Container *container) {
+    return vec_is_finite(container->low) && vec_is_finite(container->high) &&
+           vec_is_finite(container->center) && isfinite(container->radius);
+}
+
 bool solid_is_finite(const Object *object) {
     switch (object->type) {
     case OBJECT_QUADRIC:
@@ -516,6 +521,12 @@ bool solid_is_finite(const Object *object) {
     case OBJECT_POLYGON:
         return finite_table(&object->shape.polygon.points->x,
                             3 * (size_t)object->shape.polygon.count);
+    case OBJECT_ISOSURFACE:
+        return container_is_finite(&object->shape.isosurface.container);
+    case OBJECT_PARAMETRIC:
+        return container_is_finite(&object->shape.parametric.container) &&
+               finite_table(object->shape.parametric.low, 2) &&
+               finite_table(object->shape.parametric.high, 2);
     case OBJECT_TEXT:
         return isfinite(object->shape.text.thickness) &&
                finite_table(object->shape.text.arcs, 6 * (size_t)object->shape.text.arc_count);
@@ -537,6 +548,7 @@ ParseShape *solid_parser(int keyword) {
         {KW_mesh, parse_mesh},
         {KW_mesh2, parse_mesh2},
         {KW_ovus, parse_ovus},
+        {KW_parametric, parse_parametric},
         {KW_poly, parse_poly},
         {KW_polygon, parse_polygon},
         {KW_polynomial, parse_polynomial},

@@ -131,29 +131,24 @@ static void random_mesh_shape(Rng *rng, Arena *arena, const Scene *scene, MeshSh
 }
 
 // A function that such a surface can have; NO_INDEX: the scene has none.
-static uint32_t formula_of_three(const Scene *scene) {
-    for (uint32_t i = 0; i < scene->function_count; i++) {
-        const Function *f = &scene->functions[i];
-        if (f->type == FUNCTION_FORMULA && f->parameters == 3 &&
-            !function_asks_pigment(scene->functions, i))
+static uint32_t function_of_three(const Scene *scene) {
+    for (uint32_t i = 0; i < scene->function_count; i++)
+        if (scene->functions[i].parameters == 3 && function_width(&scene->functions[i]) == 1)
             return i;
-    }
     return NO_INDEX;
 }
 
-static void random_isosurface(Rng *rng, const Scene *scene, Object *object) {
-    uint32_t function = formula_of_three(scene);
-    if (function == NO_INDEX) {
-        object->type = OBJECT_SPHERE;
-        object->shape.sphere = (SphereShape){random_point(rng), 1};
-        return;
-    }
+static Container random_container(Rng *rng) {
+    return (Container){.in_sphere = below(rng, 2),
+                       .low = vec3(-1, -2, -rng_unit(rng)),
+                       .high = vec3(1, 2, rng_unit(rng)),
+                       .center = random_point(rng),
+                       .radius = rng_unit(rng)};
+}
+
+static void random_isosurface(Rng *rng, uint32_t function, Object *object) {
     object->shape.isosurface = (IsosurfaceShape){.function = function,
-                                                 .in_sphere = below(rng, 2),
-                                                 .low = vec3(-1, -2, -rng_unit(rng)),
-                                                 .high = vec3(1, 2, rng_unit(rng)),
-                                                 .center = random_point(rng),
-                                                 .radius = rng_unit(rng),
+                                                 .container = random_container(rng),
                                                  .threshold = rng_unit(rng),
                                                  .accuracy = rng_range(rng, 0.1, 1),
                                                  .max_gradient = rng_range(rng, 0.1, 9),
@@ -163,6 +158,30 @@ static void random_isosurface(Rng *rng, const Scene *scene, Object *object) {
                                                  .evaluate_from = rng_unit(rng),
                                                  .evaluate_over = rng_unit(rng),
                                                  .evaluate_fall = rng_unit(rng)};
+}
+
+static void random_parametric(Rng *rng, uint32_t function, Object *object) {
+    object->shape.parametric =
+        (ParametricShape){.functions = {function, function, function},
+                          .low = {-rng_unit(rng), -rng_unit(rng)},
+                          .high = {rng_unit(rng), rng_unit(rng)},
+                          .container = random_container(rng),
+                          .accuracy = rng_range(rng, 0.1, 1),
+                          .max_gradient = rng_range(rng, 0.1, 9),
+                          .precompute = {below(rng, 2), below(rng, 2), below(rng, 2)},
+                          .depth = 1 + (int)below(rng, 8)};
+}
+
+static void random_function_surface(Rng *rng, const Scene *scene, Object *object) {
+    uint32_t function = function_of_three(scene);
+    if (function == NO_INDEX) {
+        object->type = OBJECT_SPHERE;
+        object->shape.sphere = (SphereShape){random_point(rng), 1};
+    } else if (object->type == OBJECT_ISOSURFACE) {
+        random_isosurface(rng, function, object);
+    } else {
+        random_parametric(rng, function, object);
+    }
 }
 
 void random_solid(Rng *rng, Arena *arena, const Scene *scene, Object *object) {
@@ -237,7 +256,8 @@ void random_solid(Rng *rng, Arena *arena, const Scene *scene, Object *object) {
         random_text(rng, arena, &object->shape.text);
         break;
     case OBJECT_ISOSURFACE:
-        random_isosurface(rng, scene, object);
+    case OBJECT_PARAMETRIC:
+        random_function_surface(rng, scene, object);
         break;
     default:
         break;
@@ -280,11 +300,11 @@ static const char *blob_difference(const BlobShape *a, const BlobShape *b) {
 
 static const char *isosurface_difference(const IsosurfaceShape *a, const IsosurfaceShape *b) {
     SAME(function);
-    SAME(in_sphere);
-    SAME(low);
-    SAME(high);
-    SAME(center);
-    SAME(radius);
+    SAME(container.in_sphere);
+    SAME(container.low);
+    SAME(container.high);
+    SAME(container.center);
+    SAME(container.radius);
     SAME(threshold);
     SAME(accuracy);
     SAME(max_gradient);
@@ -294,6 +314,22 @@ static const char *isosurface_difference(const IsosurfaceShape *a, const Isosurf
     SAME(evaluate_from);
     SAME(evaluate_over);
     SAME(evaluate_fall);
+    return NULL;
+}
+
+static const char *parametric_difference(const ParametricShape *a, const ParametricShape *b) {
+    SAME(functions);
+    SAME(low);
+    SAME(high);
+    SAME(container.in_sphere);
+    SAME(container.low);
+    SAME(container.high);
+    SAME(container.center);
+    SAME(container.radius);
+    SAME(accuracy);
+    SAME(max_gradient);
+    SAME(precompute);
+    SAME(depth);
     return NULL;
 }
 
@@ -358,6 +394,8 @@ const char *solid_difference(const Object *a, const Object *b) {
         break;
     case OBJECT_ISOSURFACE:
         return isosurface_difference(&a->shape.isosurface, &b->shape.isosurface);
+    case OBJECT_PARAMETRIC:
+        return parametric_difference(&a->shape.parametric, &b->shape.parametric);
     default:
         break;
     }

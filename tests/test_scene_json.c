@@ -432,6 +432,13 @@ static const struct {
      "pigments[0].gradient: its length is 0 instead of 1"},
     {HEAD "\"pigments\": [{\"type\": \"checker\", \"map\": [{\"value\": 0, \"pigment\": 0}]}]}",
      "pigments[0].map[0].pigment: pigment 0 is part of itself"},
+    // A body that is where a pigment says, which asks whether a point is in that body.
+    {HEAD "\"functions\": [{\"type\": \"pattern\", \"pigment\": 0}], \"pigments\": [{\"type\": "
+          "\"object\", \"object\": 0, \"map\": [{\"value\": 0}, {\"value\": 1}]}], "
+          "\"projections\": [{\"type\": \"isosurface\", \"function\": 0}]}",
+     "part of itself"},
+    {HEAD "\"objects\": [{\"type\": \"parametric\", \"function_x\": 0, \"function_y\": 0}]}",
+     "objects[0]: 'function_z' is missing"},
     {HEAD "\"pigments\": [{\"type\": \"checker\", \"map\": [{\"value\": 0, \"pigment\": 1}]}]}",
      "pigments[0].map[0].pigment: 1, but there is 1 pigment"},
     {HEAD "\"pigments\": [{\"type\": \"hexagon\", \"map\": [{\"value\": 0}, {\"value\": 1}]}]}",

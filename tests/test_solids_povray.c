@@ -191,6 +191,24 @@ static const Primitive PRIMITIVES[] = {
      "isosurface { function { y - 0.3*sin(5*x)*cos(5*z) } contained_by { box { -0.9, 0.9 } } "
      "evaluate 1, 1.3, 0.9 max_gradient 2.5 open",
      true, NONE},
+    {"isosurface pigment",
+     "isosurface { function { x*x + y*y + z*z - 0.5 - 0.3*F_(x, y, z).gray + 0.2*G_(x, y, z) } "
+     "contained_by { box { -1, 1 } } max_gradient 4",
+     true, NONE},
+    {"isosurface pattern",
+     "isosurface { function { G_(x, y, z) - 0.4 } threshold 0.05 "
+     "contained_by { box { -0.9, 0.8 } } max_gradient 5",
+     true, NONE},
+    {"parametric",
+     "parametric { function { (0.6 + 0.3*cos(v))*cos(u) } function { 0.3*sin(v) + 0.1*u } "
+     "function { (0.6 + 0.3*cos(v))*sin(u) } <0, 0>, <2*pi, 2*pi> contained_by { box { -1, 1 } } "
+     "max_gradient 1.1 accuracy 0.005 precompute 12 x, y, z",
+     false, NONE},
+    {"parametric sphere",
+     "parametric { function { 0.8*u } function { 0.4*sin(4*u)*cos(3*v) } function { 0.8*v } "
+     "<-1, 1>, <1, -1> contained_by { sphere { 0.1, 1 } } max_gradient 2.5 accuracy 0.01 "
+     "precompute 6 y",
+     false, NONE},
     {"text", "text{ttf \"timrom.ttf\" \"Qi&g8\" 0.4, 0 translate <-1.1,-0.3,-0.2>", true, AT_LARGE},
     {"text2",
      "text{ttf \"crystal.ttf\" \"AVTo\" 0.2, <0.05,0.03,0> translate <-1.1,"
@@ -239,7 +257,11 @@ static void write_text(char *out, size_t size, const Primitive *primitive, Varia
     else
         snprintf(cube, sizeof cube, CUBE, "-0.97, -0.98, -0.96", "0.98, 0.97, 0.96");
     const char *first = variant == CUT ? object : cube, *second = variant == CUT ? cube : object;
-    const char *head = "#version 3.7; global_settings { assumed_gamma 1 }\n";
+    // Functions of a pigment and of a pattern, for the surfaces that ask them.
+    const char *head =
+        "#version 3.7; global_settings { assumed_gamma 1 }\n"
+        "#declare F_ = function { pigment { bozo scale 0.3 color_map { [0 rgb 0] [1 rgb 1] } } }\n"
+        "#declare G_ = function { pattern { granite scale 2 } }\n";
     const char *kind = staging == AS_IT_IS ? "" : "shadowless";
     int used = snprintf(out, size,
                         "%s%sbackground { rgb <0.3, 0.4, 0.6> }\n"

@@ -28,7 +28,7 @@ typedef struct {
     const char *file;
     const uint32_t *positions;
     bool *met; // per object: already part of a tree
-    CheckPool pigments, normals, textures, functions;
+    CheckPool pigments, normals, textures, functions, projections;
     uint8_t *calls; // per function: levels of calls
     Arena *scratch;
 } Check;
@@ -61,6 +61,9 @@ void check_transform(const Check *c, const FieldPath *up, const char *name, cons
 // solid_check.c: what the larger primitives are made of, and the pools they refer to.
 void check_solid(const Check *c, const FieldPath *path, const Object *object);
 void check_solid_pools(const Check *c);
+// For a pattern of what is inside projection number `index`, a good tree: dies if the functions of
+// its surfaces lead back to it; returns how many functions lie inside one another there.
+uint8_t check_projection_use(const Check *c, const FieldPath *path, uint32_t index, int depth);
 
 // check_texture.c
 void check_texture_pools(const Check *c);

@@ -249,6 +249,7 @@ static void check_entry_count(const Check *c, const FieldPath *path, PatternType
 static void check_inner(const Check *c, const FieldPath *path, const CheckPool *pool,
                         uint32_t index, const Pattern *pattern, int depth, Cost *cost) {
     const FieldPath pigment = path_field(path, "pigment"), function = path_field(path, "function");
+    const FieldPath object = path_field(path, "object");
     if (pattern->type == PATTERN_PIGMENT) {
         check_pigment(c, &pigment, pattern->pigment, depth + 1);
         cost->own = c->pigments.cost[pattern->pigment];
@@ -256,6 +257,9 @@ static void check_inner(const Check *c, const FieldPath *path, const CheckPool *
     } else if (pattern->type == PATTERN_FUNCTION) {
         check_nest(pool, index, check_function_use(c, &function, pattern->function, depth + 1));
         cost->own = c->functions.cost[pattern->function];
+    } else if (pattern->type == PATTERN_OBJECT) {
+        check_nest(pool, index, check_projection_use(c, &object, pattern->object, depth + 1));
+        cost->own = c->projections.cost[pattern->object];
     }
 }
 

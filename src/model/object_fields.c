@@ -12,34 +12,11 @@ _Static_assert(sizeof(SweepSphere) == 4 * sizeof(double), "spheres are rows of n
 
 // ORDER object_type
 const char *const OBJECT_TYPE_NAMES[] = {
-    "union",
-    "merge",
-    "intersection",
-    "bicubic_patch",
-    "plane",
-    "sphere",
-    "box",
-    "cylinder",
-    "cone",
-    "torus",
-    "disc",
-    "triangle",
-    "quadric",
-    "poly",
-    "superellipsoid",
-    "lathe",
-    "sor",
-    "prism",
-    "sphere_sweep",
-    "blob",
-    "ovus",
-    "smooth_triangle",
-    "polygon",
-    "mesh",
-    "height_field",
-    "text",
-    "isosurface",
-    NULL,
+    "union",        "merge",    "intersection",   "bicubic_patch",   "plane",   "sphere",
+    "box",          "cylinder", "cone",           "torus",           "disc",    "triangle",
+    "quadric",      "poly",     "superellipsoid", "lathe",           "sor",     "prism",
+    "sphere_sweep", "blob",     "ovus",           "smooth_triangle", "polygon", "mesh",
+    "height_field", "text",     "isosurface",     "parametric",      NULL,
 };
 _Static_assert(sizeof OBJECT_TYPE_NAMES / sizeof *OBJECT_TYPE_NAMES == OBJECT_TYPE_COUNT + 1,
                "a name for each type");
@@ -258,16 +235,16 @@ static const Field TEXT_FIELDS[] = {
     END,
 };
 
+#define CONTAINER(member)                                                                          \
+    BOOL(Object, member.in_sphere, "in_sphere"), VEC3(Object, member.low, "low"),                  \
+        VEC3(Object, member.high, "high"), VEC3(Object, member.center, "center"),                  \
+        DOUBLE(Object, member.radius, "radius")
 static const Field ISOSURFACE_FIELDS[] = {
     {.name = "function",
      .type = FIELD_INDEX,
      .presence = FIELD_REQUIRED,
      AT(Object, shape.isosurface.function)},
-    BOOL(Object, shape.isosurface.in_sphere, "in_sphere"),
-    VEC3(Object, shape.isosurface.low, "low"),
-    VEC3(Object, shape.isosurface.high, "high"),
-    VEC3(Object, shape.isosurface.center, "center"),
-    DOUBLE(Object, shape.isosurface.radius, "radius"),
+    CONTAINER(shape.isosurface.container),
     DOUBLE(Object, shape.isosurface.threshold, "threshold"),
     DOUBLE(Object, shape.isosurface.accuracy, "accuracy"),
     DOUBLE(Object, shape.isosurface.max_gradient, "max_gradient"),
@@ -277,6 +254,30 @@ static const Field ISOSURFACE_FIELDS[] = {
     DOUBLE(Object, shape.isosurface.evaluate_from, "evaluate_from"),
     DOUBLE(Object, shape.isosurface.evaluate_over, "evaluate_over"),
     DOUBLE(Object, shape.isosurface.evaluate_fall, "evaluate_fall"),
+    OBJECT_TRANSFORM,
+    END,
+};
+
+#define FUNCTION_OF(axis, field)                                                                   \
+    {                                                                                              \
+        .name = (field), .type = FIELD_INDEX, .presence = FIELD_REQUIRED,                          \
+        AT(Object, shape.parametric.functions[axis])                                               \
+    }
+static const Field PARAMETRIC_FIELDS[] = {
+    FUNCTION_OF(0, "function_x"),
+    FUNCTION_OF(1, "function_y"),
+    FUNCTION_OF(2, "function_z"),
+    DOUBLE(Object, shape.parametric.low[0], "low_u"),
+    DOUBLE(Object, shape.parametric.low[1], "low_v"),
+    DOUBLE(Object, shape.parametric.high[0], "high_u"),
+    DOUBLE(Object, shape.parametric.high[1], "high_v"),
+    CONTAINER(shape.parametric.container),
+    DOUBLE(Object, shape.parametric.accuracy, "accuracy"),
+    DOUBLE(Object, shape.parametric.max_gradient, "max_gradient"),
+    BOOL(Object, shape.parametric.precompute[0], "precompute_x"),
+    BOOL(Object, shape.parametric.precompute[1], "precompute_y"),
+    BOOL(Object, shape.parametric.precompute[2], "precompute_z"),
+    INT(Object, shape.parametric.depth, "depth"),
     OBJECT_TRANSFORM,
     END,
 };
@@ -310,6 +311,7 @@ static const Record OBJECT_RECORDS[] = {
     {&OBJECT, HEIGHT_FIELD_FIELDS, sizeof(Object), NULL, NULL},
     {&OBJECT, TEXT_FIELDS, sizeof(Object), NULL, NULL},
     {&OBJECT, ISOSURFACE_FIELDS, sizeof(Object), NULL, NULL},
+    {&OBJECT, PARAMETRIC_FIELDS, sizeof(Object), NULL, NULL},
 };
 _Static_assert(sizeof OBJECT_RECORDS / sizeof *OBJECT_RECORDS == OBJECT_TYPE_COUNT,
                "a record for each type");

@@ -153,6 +153,7 @@ static PatchShape patch_default(void) {
 }
 
 Object object_default(ObjectType type) {
+    const Container unit_container = {.low = {-1, -1, -1}, .high = {1, 1, 1}};
     Object object;
     memset(&object, 0, sizeof object);
     object.type = type;
@@ -166,11 +167,16 @@ Object object_default(ObjectType type) {
         object.shape.sphere_sweep.tolerance = 1e-6;
     if (type == OBJECT_ISOSURFACE)
         object.shape.isosurface = (IsosurfaceShape){.function = NO_INDEX,
-                                                    .low = {-1, -1, -1},
-                                                    .high = {1, 1, 1},
+                                                    .container = unit_container,
                                                     .accuracy = 1e-3,
                                                     .max_gradient = 1.1,
                                                     .max_trace = 1};
+    if (type == OBJECT_PARAMETRIC)
+        object.shape.parametric = (ParametricShape){.functions = {NO_INDEX, NO_INDEX, NO_INDEX},
+                                                    .container = unit_container,
+                                                    .accuracy = 1e-3,
+                                                    .max_gradient = 1,
+                                                    .depth = 1};
     return object;
 }
 
@@ -264,6 +270,7 @@ bool object_is_tree(const Object *object) {
     X(ovus)                                                                                        \
     X(panoramic)                                                                                   \
     X(parallel_light)                                                                              \
+    X(parametric)                                                                                  \
     X(pattern_warp)                                                                                \
     X(pattern_wave)                                                                                \
     X(perspective)                                                                                 \
@@ -523,6 +530,8 @@ static Feature object_feature(const Object *object) {
         return FEATURE_text;
     case OBJECT_ISOSURFACE:
         return FEATURE_isosurface;
+    case OBJECT_PARAMETRIC:
+        return FEATURE_parametric;
     case OBJECT_TYPE_COUNT:
         break;
     }

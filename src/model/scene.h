@@ -475,6 +475,7 @@ typedef enum {
     OBJECT_HEIGHT_FIELD,
     OBJECT_TEXT,
     OBJECT_ISOSURFACE,
+    OBJECT_PARAMETRIC,
     OBJECT_TYPE_COUNT,
 } ObjectType;
 
@@ -570,6 +571,7 @@ typedef struct {
         HeightFieldShape height_field;
         TextShape text;
         IsosurfaceShape isosurface;
+        ParametricShape parametric;
         ObjectList children; // UNION, MERGE, INTERSECTION
     } shape;
 } Object;
@@ -674,8 +676,6 @@ Warp warp_default(WarpType type);
 Object object_default(ObjectType type);
 // Has it children?
 bool object_is_tree(const Object *object);
-// Does the function, or one that it calls, ask a pigment? functions: of a valid scene.
-bool function_asks_pigment(const Function *functions, uint32_t index);
 // Has it a local space, so that it may have a transform?
 bool object_has_space(ObjectType type);
 

@@ -337,14 +337,14 @@ static void check_scene(void *context) {
         check_light(c, &path, &scene->lights[i]);
     }
     check_functions(c);
+    check_solid_pools(c);
+    check_objects(c); // they are trees now: patterns look into them
     check_texture_pools(c);
     check_function_uses(c);
     for (uint32_t i = 0; i < scene->interior_count; i++) {
         const FieldPath path = path_item(NULL, "interiors", i);
         check_interior(c, &path, &scene->interiors[i]);
     }
-    check_solid_pools(c);
-    check_objects(c);
 }
 
 static CheckPool make_pool(Arena *scratch, const char *name, uint32_t count) {
@@ -360,6 +360,7 @@ void scene_validate_at(const Scene *scene, const char *file, const uint32_t *pos
     c.normals = make_pool(scratch, "normal", scene->normal_count);
     c.textures = make_pool(scratch, "texture", scene->texture_count);
     c.functions = make_pool(scratch, "function", scene->function_count);
+    c.projections = make_pool(scratch, "object", scene->projection_count);
     c.calls = ARENA_ARRAY(scratch, uint8_t, scene->function_count);
     c.scratch = scratch;
     char *message = NULL;

@@ -161,12 +161,17 @@ typedef struct {
     uint32_t letter_count;
 } TextShape;
 
-// Where a function of x, y and z is not above the threshold, within a box or a sphere.
+// What bounds a surface that functions describe.
 typedef struct {
-    uint32_t function; // of the scene: a formula of three arguments, without pigments in it
-    bool in_sphere;    // around center; else the box from low to high
+    bool in_sphere; // around center; else the box from low to high
     Vec3 low, high, center;
     double radius;
+} Container;
+
+// Where a function of x, y and z is not above the threshold.
+typedef struct {
+    uint32_t function; // of the scene: of three arguments, to one number
+    Container container;
     double threshold;
     double accuracy;     // as a depth in the world
     double max_gradient; // that the surface is found with
@@ -177,5 +182,18 @@ typedef struct {
 } IsosurfaceShape;
 
 enum { SCENE_MAX_TRACE = 10 };
+
+// The points (x, y, z) of three functions of u and v.
+typedef struct {
+    uint32_t functions[3];  // of the scene, as that of an isosurface: of u, v and 0
+    double low[2], high[2]; // of u and v
+    Container container;
+    double accuracy;     // of u and v, and as a depth in the world
+    double max_gradient; // that each function is bounded with
+    bool precompute[3];  // bounds of that function are found in advance, ...
+    int depth;           // ... for pieces halved so often, 1 to SCENE_MAX_PRECOMPUTE
+} ParametricShape;
+
+enum { SCENE_MAX_PRECOMPUTE = 20 };
 
 #endif

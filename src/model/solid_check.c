@@ -107,34 +107,30 @@ static void check_text(const Check *c, const FieldPath *path, const TextShape *t
             refuse(c, &place, "%u does not follow, or is no arc", text->letters[i]);
 }
 
-bool function_asks_pigment(const Function *functions, uint32_t index) {
-    const Function *f = &functions[index];
-    if (f->type == FUNCTION_PIGMENT || f->type == FUNCTION_PATTERN)
-        return true;
-    for (uint32_t i = 0; f->type == FUNCTION_FORMULA && i < f->step_count; i++) {
-        const FunctionStep *step = &f->steps[i];
-        // Calls go to functions before this one only.
-        if ((step->op == FUNCTION_CALL || step->op == FUNCTION_CALL_VECTOR) &&
-            function_asks_pigment(functions, (uint32_t)step->a))
-            return true;
-    }
-    return false;
+// Of three arguments, to one number.
+static void check_function(const Check *c, const FieldPath *path, const char *name,
+                           uint32_t function) {
+    const FieldPath place = path_field(path, name);
+    check_index(c, &place, function, c->scene->function_count, "function");
+    const Function *f = &c->scene->functions[function];
+    if (function_width(f) != 1 || f->parameters != 3)
+        refuse(c, &place, "%u is not of three arguments and one number", function);
+}
+
+static void check_container(const Check *c, const FieldPath *path, const Container *container) {
+    const FieldPath low = path_field(path, "low");
+    check_vec3(c, path, "low", container->low);
+    check_vec3(c, path, "high", container->high);
+    if (container->low.x > container->high.x || container->low.y > container->high.y ||
+        container->low.z > container->high.z)
+        refuse(c, &low, "it is above 'high'");
+    check_vec3(c, path, "center", container->center);
+    check_size(c, path, "radius", container->radius);
 }
 
 static void check_isosurface(const Check *c, const FieldPath *path, const IsosurfaceShape *iso) {
-    const FieldPath function = path_field(path, "function"), low = path_field(path, "low");
-    check_index(c, &function, iso->function, c->scene->function_count, "function");
-    const Function *f = &c->scene->functions[iso->function];
-    if (f->type != FUNCTION_FORMULA || f->parameters != 3)
-        refuse(c, &function, "%u is no formula of three arguments", iso->function);
-    if (function_asks_pigment(c->scene->functions, iso->function))
-        refuse(c, &function, "%u asks a pigment", iso->function);
-    check_vec3(c, path, "low", iso->low);
-    check_vec3(c, path, "high", iso->high);
-    if (iso->low.x > iso->high.x || iso->low.y > iso->high.y || iso->low.z > iso->high.z)
-        refuse(c, &low, "it is above 'high'");
-    check_vec3(c, path, "center", iso->center);
-    check_size(c, path, "radius", iso->radius);
+    check_function(c, path, "function", iso->function);
+    check_container(c, path, &iso->container);
     check_numbers(c, path, "threshold", &iso->threshold, 1);
     check_above_zero(c, path, "accuracy", iso->accuracy);
     check_above_zero(c, path, "max_gradient", iso->max_gradient);
@@ -142,6 +138,25 @@ static void check_isosurface(const Check *c, const FieldPath *path, const Isosur
     check_numbers(c, path, "evaluate_from", &iso->evaluate_from, 1);
     check_numbers(c, path, "evaluate_over", &iso->evaluate_over, 1);
     check_numbers(c, path, "evaluate_fall", &iso->evaluate_fall, 1);
+}
+
+static void check_parametric(const Check *c, const FieldPath *path, const ParametricShape *shape) {
+    static const char *const functions[3] = {"function_x", "function_y", "function_z"};
+    static const char *const lows[2] = {"low_u", "low_v"};
+    static const char *const highs[2] = {"high_u", "high_v"};
+    for (int axis = 0; axis < 3; axis++)
+        check_function(c, path, functions[axis], shape->functions[axis]);
+    for (int k = 0; k < 2; k++) {
+        const FieldPath low = path_field(path, lows[k]);
+        check_numbers(c, path, lows[k], &shape->low[k], 1);
+        check_numbers(c, path, highs[k], &shape->high[k], 1);
+        if (shape->low[k] > shape->high[k])
+            refuse(c, &low, "it is above '%s'", highs[k]);
+    }
+    check_container(c, path, &shape->container);
+    check_above_zero(c, path, "accuracy", shape->accuracy);
+    check_above_zero(c, path, "max_gradient", shape->max_gradient);
+    check_range(c, path, "depth", shape->depth, 1, SCENE_MAX_PRECOMPUTE);
 }
 
 static void check_mesh_textures(const Check *c, const FieldPath *path, const MeshShape *shape) {
@@ -220,9 +235,58 @@ void check_solid(const Check *c, const FieldPath *path, const Object *object) {
     case OBJECT_ISOSURFACE:
         check_isosurface(c, path, &object->shape.isosurface);
         break;
+    case OBJECT_PARAMETRIC:
+        check_parametric(c, path, &object->shape.parametric);
+        break;
     default:
         break;
     }
+}
+
+// ---- what patterns look into ------------------------------------------------------------------
+
+typedef struct {
+    uint8_t nesting;
+    double cost; // evaluations to tell whether a point is inside
+} Inside;
+
+static void check_list_use(const Check *c, const FieldPath *path, const uint32_t *items,
+                           uint32_t count, int depth, Inside *inside);
+
+static void check_function_inside(const Check *c, const FieldPath *path, uint32_t function,
+                                  int depth, Inside *inside) {
+    uint8_t nesting = check_function_use(c, path, function, depth + 1);
+    if (nesting >= inside->nesting)
+        inside->nesting = (uint8_t)(nesting + 1);
+    inside->cost += c->functions.cost[function];
+}
+
+static void check_list_use(const Check *c, const FieldPath *path, const uint32_t *items,
+                           uint32_t count, int depth, Inside *inside) {
+    for (uint32_t i = 0; i < count; i++) {
+        const Object *object = &c->scene->objects[items[i]];
+        if (object->type == OBJECT_ISOSURFACE)
+            check_function_inside(c, path, object->shape.isosurface.function, depth, inside);
+        if (object_is_tree(object))
+            check_list_use(c, path, object->shape.children.items, object->shape.children.count,
+                           depth, inside);
+        check_list_use(c, path, object->clips.items, object->clips.count, depth, inside);
+    }
+}
+
+uint8_t check_projection_use(const Check *c, const FieldPath *path, uint32_t index, int depth) {
+    uint8_t *met = &c->projections.met[index];
+    if (*met == 1)
+        refuse(c, path, "projection %u is part of itself", index);
+    if (*met == 0) {
+        Inside inside = {0};
+        *met = 1;
+        check_list_use(c, path, &c->scene->projections[index], 1, depth, &inside);
+        *met = 2;
+        c->projections.nesting[index] = inside.nesting;
+        c->projections.cost[index] = inside.cost;
+    }
+    return c->projections.nesting[index];
 }
 
 // ---- pools ----------------------------------------------------------------------------------

@@ -16,18 +16,21 @@ struct Probe {
 // POV-Ray's least depth of a hit that counts.
 static const double NEAREST = 1e-4;
 
-static World *make_world(const Scene *scene) {
+static World *make_world(const Scene *scene, const Textures *textures) {
     PatchSetOptions patches = patchset_options_default();
     patches.method = METHOD_FACETS;
-    return world_create(scene, &patches);
+    World *world = world_create(scene, &patches);
+    world_use_functions(world, &textures->functions);
+    return world;
 }
 
 // The object of a pattern alone.
-static World *make_body(Arena *arena, const Scene *scene, uint32_t projection) {
-    Scene *alone = arena_copy(arena, scene, sizeof *scene);
+static World *make_body(const Probe *probe, uint32_t projection) {
+    const Scene *scene = probe->scene;
+    Scene *alone = arena_copy(probe->arena, scene, sizeof *scene);
     alone->roots = &scene->projections[projection];
     alone->root_count = 1;
-    return make_world(alone);
+    return make_world(alone, probe->textures);
 }
 
 static bool in_body(const void *objects, uint32_t object, Vec3 p) {
@@ -41,11 +44,11 @@ Probe *probe_create(const Scene *scene) {
     *probe = (Probe){.arena = arena, .scene = scene, .textures = textures_create(scene, arena)};
     probe->bodies = ARENA_ARRAY(arena, World *, scene->projection_count);
     for (uint32_t i = 0; i < scene->projection_count; i++)
-        probe->bodies[i] = make_body(arena, scene, i);
+        probe->bodies[i] = make_body(probe, i);
     probe->textures->inside = in_body;
     probe->textures->objects = probe;
     if (scene->root_count > 0)
-        probe->world = make_world(scene);
+        probe->world = make_world(scene, probe->textures);
     return probe;
 }
 

@@ -153,11 +153,12 @@ static void narrow_reaches(Csg *csg) {
 Csg csg_create(const Scene *scene, Arena *arena) {
     Maker maker = {.scene = scene,
                    .arena = arena,
-                   .shared = shape_shared_create(arena),
+                   .shared = shape_shared_create(scene, arena),
                    .of_object = ARENA_ARRAY(arena, uint32_t, scene->object_count)};
     for (uint32_t i = 0; i < scene->root_count; i++)
         make_node(&maker, scene->roots[i], NO_INDEX, false, 0);
-    Csg csg = {.count = (uint32_t)maker.nodes.count, .of_object = maker.of_object};
+    Csg csg = {
+        .count = (uint32_t)maker.nodes.count, .of_object = maker.of_object, .shared = maker.shared};
     csg.nodes = arena_copy(arena, maker.nodes.items, csg.count * sizeof(CsgNode));
     array_free(&maker.nodes);
     narrow_reaches(&csg);

@@ -27,6 +27,7 @@ typedef struct {
     CsgNode *nodes;
     uint32_t count;
     uint32_t *of_object; // node of each object; NO_INDEX: a patch that no tree can hide
+    ShapeShared *shared;
 } Csg;
 
 // Everything in arena. Dies when trees are nested too deeply.

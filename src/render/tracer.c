@@ -53,7 +53,9 @@ static World *lone_world(const Shading *shading, uint32_t projection) {
         patches = patchset_options_default();
     scene->roots = &shading->scene->projections[projection];
     scene->root_count = 1;
-    return world_create(scene, &patches);
+    World *world = world_create(scene, &patches);
+    world_use_functions(world, &shading->textures->functions);
+    return world;
 }
 
 // Patterns of objects: each in a world of its own, so that `inside` asks only for it.
@@ -116,6 +118,7 @@ Shading *shading_create(const Scene *scene, const World *world, const TraceOptio
     shading->world = world;
     shading->textures = textures_create(scene, arena);
     prepare_bodies(shading);
+    world_use_functions(world, &shading->textures->functions);
     shading->options = *options;
     shading->quality = quality_of(options->quality);
     dispersion_prepare(shading);

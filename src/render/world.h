@@ -40,6 +40,9 @@ typedef struct World World;
 // scene must outlive the world and be valid.
 World *world_create(const Scene *scene, const PatchSetOptions *patches);
 void world_destroy(World *world);
+// What the surfaces of functions in it ask, which must live as long as rays are traced. Until it is
+// told, the pigments of functions give nothing. Not while rays are traced.
+void world_use_functions(const World *world, const FunctionPool *functions);
 
 // From where on a ray meets things, in units of its t: primitives, patches.
 typedef struct {

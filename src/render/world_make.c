@@ -243,6 +243,10 @@ World *world_create(const Scene *scene, const PatchSetOptions *patches) {
     return world;
 }
 
+void world_use_functions(const World *world, const FunctionPool *functions) {
+    shape_shared_functions(world->csg.shared, functions);
+}
+
 void world_destroy(World *world) {
     if (!world)
         return;

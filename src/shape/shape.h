@@ -9,6 +9,7 @@
 #ifndef SHAPE_SHAPE_H
 #define SHAPE_SHAPE_H
 
+#include "function/function.h"
 #include "model/scene.h"
 #include "shape/facet.h"
 
@@ -96,7 +97,10 @@ typedef double (*ShapeVisit)(void *context, const ShapeHit *hit);
 // and object must outlive the shape. What copies of an object have in common is looked up in, and
 // added to, shared (zeroed at first, one for all shapes of a scene).
 typedef struct ShapeShared ShapeShared;
-ShapeShared *shape_shared_create(Arena *arena);
+ShapeShared *shape_shared_create(const Scene *scene, Arena *arena);
+// What the surfaces of functions ask; until it is told, their pigments give nothing. Not while rays
+// are traced.
+void shape_shared_functions(ShapeShared *shared, const FunctionPool *functions);
 Shape shape_prepare(const Scene *scene, const Object *object, ShapeShared *shared, Arena *arena);
 
 // All hits that lie beyond the primitive's own least depth, in POV-Ray's order: of several at the

@@ -2,6 +2,10 @@
 // From the world to the local space of a solid and back.
 #include "shape/solid.h"
 
+#include "base/hash.h"
+
+#include <string.h>
+
 void sink_put(HitSink *sink, double t_local, int part, Vec3 keep) {
     ShapeHit hit = {t_local / sink->scale, part, keep};
     if (!(hit.t > sink->near && hit.t < sink->far))
@@ -13,44 +17,84 @@ void sink_put(HitSink *sink, double t_local, int part, Vec3 keep) {
 
 // ---- what copies share ----------------------------------------------------------------------
 
-// Prepared data by what it was prepared from: copies of an object have the same lists, which differ
-// for all others.
+// Prepared data by what it was prepared from: the bytes of the object's shape, whose lists copies
+// have in common.
 typedef struct Known {
     struct Known *next;
-    const void *from;
-    ObjectType type;
+    const Object *from;
+    uint64_t hash;
     SolidData data;
 } Known;
 
 enum { BUCKETS = 1024 };
 
 struct ShapeShared {
+    Arena *arena;
+    FunctionPool functions;
     Known *buckets[BUCKETS];
+    Known *parametrics;
 };
 
-ShapeShared *shape_shared_create(Arena *arena) { return ARENA_NEW(arena, ShapeShared); }
-
-// NULL: nothing worth sharing.
-static const void *identity(const Scene *scene, const Object *object) {
-    switch (object->type) {
-    case OBJECT_POLY:
-        return object->shape.poly.coefficients;
-    case OBJECT_BLOB:
-        return object->shape.blob.components;
-    case OBJECT_MESH:
-        return &scene->meshes[object->shape.mesh.mesh];
-    case OBJECT_POLYGON:
-        return object->shape.polygon.points;
-    case OBJECT_TEXT:
-        return object->shape.text.arcs;
-    case OBJECT_SPHERE_SWEEP:
-        return object->shape.sphere_sweep.spheres;
-    default:
-        return NULL;
-    }
+// Before the textures are there functions get nothing from pigments.
+static void no_color(const void *world, uint32_t pigment, Vec3 p, double color[FUNCTION_WIDTH]) {
+    (void)world, (void)pigment, (void)p;
+    for (int i = 0; i < FUNCTION_WIDTH; i++)
+        color[i] = 0.0;
 }
 
-static SolidData prepare(const Scene *scene, const Object *object, Arena *arena) {
+static double no_value(const void *world, uint32_t pigment, Vec3 p) {
+    (void)world, (void)pigment, (void)p;
+    return 0.0;
+}
+
+ShapeShared *shape_shared_create(const Scene *scene, Arena *arena) {
+    static const FunctionHooks hooks = {no_color, no_value};
+    ShapeShared *shared = ARENA_NEW(arena, ShapeShared);
+    shared->arena = arena;
+    shared->functions = (FunctionPool){.functions = scene->functions,
+                                       .noise_generator = scene->settings.noise_generator,
+                                       .hooks = &hooks};
+    return shared;
+}
+
+void shape_shared_functions(ShapeShared *shared, const FunctionPool *functions) {
+    shared->functions = *functions;
+    for (const Known *known = shared->parametrics; known; known = known->next)
+        parametric_complete(&known->data, shared->arena);
+    shared->parametrics = NULL;
+}
+
+// Is more made of it than its own few numbers?
+static bool is_shared(ObjectType type) {
+    return type != OBJECT_QUADRIC && type != OBJECT_SUPERELLIPSOID && type != OBJECT_OVUS &&
+           type != OBJECT_SMOOTH_TRIANGLE;
+}
+
+// The bytes that decide; the textures of a mesh do not.
+static size_t identity(const Object *object, const unsigned char **bytes) {
+    bool mesh = object->type == OBJECT_MESH;
+    *bytes = mesh ? (const unsigned char *)&object->shape.mesh.mesh
+                  : (const unsigned char *)&object->shape;
+    return mesh ? sizeof object->shape.mesh.mesh : sizeof object->shape;
+}
+
+static uint64_t hash_of(const Object *object) {
+    const unsigned char *bytes;
+    size_t size = identity(object, &bytes);
+    return hash_bytes(HASH_START, bytes, size);
+}
+
+static bool same_shape(const Object *a, const Object *b) {
+    const unsigned char *bytes, *others;
+    if (a->type != b->type)
+        return false;
+    size_t size = identity(a, &bytes);
+    identity(b, &others);
+    return memcmp(bytes, others, size) == 0;
+}
+
+static SolidData prepare(const Scene *scene, const Object *object, ShapeShared *shared,
+                         Arena *arena) {
     switch (object->type) {
     case OBJECT_QUADRIC:
         return quadric_prepare(&object->shape.quadric, arena);
@@ -82,26 +126,37 @@ static SolidData prepare(const Scene *scene, const Object *object, Arena *arena)
     case OBJECT_TEXT:
         return text_prepare(&object->shape.text, arena);
     case OBJECT_ISOSURFACE:
-        return isosurface_prepare(scene, &object->shape.isosurface, arena);
+        return isosurface_prepare(&object->shape.isosurface, &shared->functions, arena);
+    case OBJECT_PARAMETRIC:
+        return parametric_prepare(&object->shape.parametric, &shared->functions, arena);
     default:
         return (SolidData){0};
     }
 }
 
+static const Known *find(const ShapeShared *shared, const Object *object, uint64_t hash) {
+    for (const Known *known = shared->buckets[hash % BUCKETS]; known; known = known->next)
+        if (known->hash == hash && same_shape(known->from, object))
+            return known;
+    return NULL;
+}
+
+static void add(Known **list, const Object *object, uint64_t hash, SolidData data, Arena *arena) {
+    Known *known = ARENA_NEW(arena, Known);
+    *known = (Known){*list, object, hash, data};
+    *list = known;
+}
+
 void solid_prepare(Shape *shape, const Scene *scene, const Object *object, ShapeShared *shared,
                    Arena *arena) {
-    const void *from = shared ? identity(scene, object) : NULL;
-    Known **bucket = from ? &shared->buckets[(uintptr_t)from / 64 % BUCKETS] : NULL;
-    for (const Known *known = bucket ? *bucket : NULL; known; known = known->next)
-        if (known->from == from && known->type == object->type)
-            shape->as.solid = known->data;
-    if (!shape->as.solid.ops) {
-        shape->as.solid = prepare(scene, object, arena);
-        if (bucket) {
-            Known *known = ARENA_NEW(arena, Known);
-            *known = (Known){*bucket, from, object->type, shape->as.solid};
-            *bucket = known;
-        }
+    bool shares = shared && is_shared(object->type);
+    uint64_t hash = shares ? hash_of(object) : 0;
+    const Known *known = shares ? find(shared, object, hash) : NULL;
+    shape->as.solid = known ? known->data : prepare(scene, object, shared, arena);
+    if (shares && !known) {
+        add(&shared->buckets[hash % BUCKETS], object, hash, shape->as.solid, arena);
+        if (object->type == OBJECT_PARAMETRIC)
+            add(&shared->parametrics, object, hash, shape->as.solid, arena);
     }
     shape->kind = shape->as.solid.ops ? SHAPE_SOLID : SHAPE_NONE;
     if (object->type == OBJECT_MESH)

@@ -4,6 +4,7 @@
 #ifndef SHAPE_SOLID_H
 #define SHAPE_SOLID_H
 
+#include "function/function.h"
 #include "shape/shape.h"
 
 // Where a primitive puts its hits. Depths are those of the local ray, scale times the world's.
@@ -59,7 +60,11 @@ SolidData smooth_triangle_prepare(const SmoothTriangleShape *triangle, Arena *ar
 SolidData polygon_prepare(const PolygonShape *polygon, Arena *arena);
 SolidData mesh_prepare(const Mesh *mesh, Arena *arena);
 SolidData height_field_prepare(const HeightFieldShape *field, const HeightMap *map, Arena *arena);
-SolidData isosurface_prepare(const Scene *scene, const IsosurfaceShape *shape, Arena *arena);
+// These two keep the pool, which is filled in later.
+SolidData isosurface_prepare(const IsosurfaceShape *shape, const FunctionPool *pool, Arena *arena);
+SolidData parametric_prepare(const ParametricShape *shape, const FunctionPool *pool, Arena *arena);
+// When the pool is there: what is worked out once of the functions.
+void parametric_complete(const SolidData *solid, Arena *arena);
 SolidData text_prepare(const TextShape *text, Arena *arena);
 
 // Angle of (x, z) about the y axis, 0..1 from +x towards +z: what lathe and sor have for u.

@@ -122,7 +122,7 @@ static void copy_shape(const Pattern *shape, Pattern *pattern) {
 bool pattern_is_modelled(const PatternNode *node) {
     if (node->info->type == PATTERN_OBJECT && !object_is_there(node->object))
         return false;
-    return node->info->type != PATTERN_MODELLED && !(node->picture && !node->picture->path);
+    return node->info->type != PATTERN_MODELLED;
 }
 
 static uint32_t emit_picture(Emitter *e, const Picture *picture) {
@@ -210,10 +210,8 @@ static void copy_entries(Emitter *e, const PatternNode *node, Pigment *pigment) 
 
 static const char *pattern_text(Emitter *e, const PatternNode *node) {
     return arena_printf(e->cv->arena,
-                        node->info->keyword == KW_image_map
-                            ? "%s of a function is not modelled: a plain grey is shown instead"
-                            : "the pattern '%s' is not modelled: one colour is shown, the middle "
-                              "of its map",
+                        "the pattern '%s' is not modelled: one colour is shown, the middle of its "
+                        "map",
                         keyword_name(node->info->keyword));
 }
 

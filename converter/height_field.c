@@ -87,37 +87,34 @@ static const HeightMap *map_of_picture(Converter *cv, const Picture *source, con
     return map;
 }
 
-// function W, H { BODY }. Row 0 of the values is the picture's first.
-static const HeightMap *map_of_function(Converter *cv, const Token *token) {
-    double width = floor(parse_float(cv));
-    optional_comma(cv);
-    double height = floor(parse_float(cv));
-    optional_comma(cv);
-    check_size(cv, token, width, height);
-    const UserFunction *function = parse_function(cv);
-    HeightMap *map = make_map(cv, (int)width, (int)height);
+// What a function made is in numbers of 16 bits already; a step of them is lost where the division
+// rounds down.
+static double height_of_values(const double *value, int channels) {
+    float v[3];
+    for (int i = 0; i < 3; i++)
+        v[i] = (float)value[channels == 1 ? 0 : i] / 65535.0F;
+    float grey = channels == 1 ? v[0] : 0.297F * v[0] + 0.589F * v[1] + 0.114F * v[2];
+    return clip16((double)(grey * 65535.0F));
+}
+
+static const HeightMap *map_of_function(Converter *cv, const Picture *source, const Token *token) {
+    check_size(cv, token, source->width, source->height);
+    HeightMap *map = make_map(cv, source->width, source->height);
+    const double *value = source->values;
     for (int row = 0; row < map->depth; row++)
-        for (int x = 0; x < map->width; x++) {
-            double arguments[3] = {x / (width - 1), row / (height - 1), 0}, value[5] = {0};
-            user_function_evaluate(cv, function, arguments, value);
-            // Kept in a picture of 16 bits in between.
-            double stored = floor((double)(float)fmin(fmax(value[0], 0.0), 1.0) * 65535.0 + 0.5);
-            map->heights[(size_t)(map->depth - 1 - row) * (size_t)map->width + (size_t)x] = stored;
-        }
+        for (int x = 0; x < map->width; x++, value += source->channels)
+            map->heights[(size_t)(map->depth - 1 - row) * (size_t)map->width + (size_t)x] =
+                height_of_values(value, source->channels);
     return map;
 }
 
 void parse_height_field(Converter *cv, ObjectNode *object) {
     HeightFieldShape *field = &object->object.shape.height_field;
     const Token *token = peek_token(cv);
-    const HeightMap *map;
-    if (accept(cv, KW_function)) {
-        map = map_of_function(cv, token);
-    } else {
-        Picture source;
-        parse_image(cv, &source, false);
-        map = map_of_picture(cv, &source, token);
-    }
+    Picture source;
+    parse_image(cv, &source, false);
+    const HeightMap *map = source.type == PICTURE_VALUES ? map_of_function(cv, &source, token)
+                                                         : map_of_picture(cv, &source, token);
     for (;;) {
         if (accept(cv, KW_water_level))
             field->water_level = 65536.0 * parse_float(cv);

@@ -103,11 +103,7 @@ void parse_image(Converter *cv, Picture *picture, bool to_working) {
     picture->to_working = to_working;
     picture->decode = usual_decode(cv, to_working);
     if (accept(cv, KW_function)) {
-        parse_float(cv);
-        optional_comma(cv);
-        parse_float(cv);
-        optional_comma(cv);
-        parse_function(cv);
+        parse_image_function(cv, picture);
         return;
     }
     if (!starts_string(cv) && starts_expression(cv))

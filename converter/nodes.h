@@ -134,6 +134,8 @@ const MapNode *map_default(Converter *cv, const PatternInfo *info);
 const Picture *parse_image_block(Converter *cv, int keyword, float *amount);
 // to_working: its colours are meant, not numbers.
 void parse_image(Converter *cv, Picture *picture, bool to_working);
+// image_function.c: after the keyword `function`.
+void parse_image_function(Converter *cv, Picture *picture);
 void parse_image_options(Converter *cv, Picture *picture, float *amount); // amount may be NULL
 
 // ---- textures: texture.c, finish.c, interior.c

@@ -252,11 +252,24 @@ static void make_pattern_shape(Rng *rng, Pattern *p) {
 
 enum { PICTURES = 3 };
 
+static void make_values(Rng *rng, Arena *arena, Picture *p) {
+    p->width = 1 + (int)random_below(rng, 4);
+    p->height = 1 + (int)random_below(rng, 4);
+    p->channels = random_bool(rng) ? 1 : 4;
+    p->value_count = (uint32_t)(p->width * p->height * p->channels);
+    p->values = ARENA_ARRAY(arena, double, p->value_count);
+    for (uint32_t i = 0; i < p->value_count; i++)
+        p->values[i] = rng_range(rng, 0, 65535);
+}
+
 static Picture make_picture(Rng *rng, Arena *arena) {
     Picture p = picture_default();
     // Absolute: those stay as they are, whatever folder the scene file is in.
-    p.path = arena_printf(arena, "/pictures/a \"%u\".png", random_below(rng, 99));
-    p.type = (PictureType)random_below(rng, PICTURE_HDR + 1);
+    p.type = (PictureType)random_below(rng, PICTURE_VALUES + 1);
+    if (p.type == PICTURE_VALUES)
+        make_values(rng, arena, &p);
+    else
+        p.path = arena_printf(arena, "/pictures/a \"%u\".png", random_below(rng, 99));
     p.decode = (PictureDecode)random_below(rng, DECODE_SRGB + 1);
     p.gamma = (float)rng_range(rng, 0.1, 3);
     p.to_working = random_bool(rng);

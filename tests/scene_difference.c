@@ -111,8 +111,14 @@ static const char *change_difference(const PaletteChange *a, const PaletteChange
 }
 
 static const char *picture_difference(const Picture *a, const Picture *b) {
-    if (strcmp(a->path, b->path) != 0)
+    if ((a->path == NULL) != (b->path == NULL) || (a->path && strcmp(a->path, b->path) != 0))
         return "path";
+    COMPARE(int, width)
+    COMPARE(int, height)
+    COMPARE(int, channels)
+    COMPARE(uint32_t, value_count)
+    if (a->value_count && memcmp(a->values, b->values, a->value_count * sizeof *a->values) != 0)
+        return "values";
     COMPARE(PictureType, type)
     COMPARE(PictureDecode, decode)
     COMPARE(float, gamma)

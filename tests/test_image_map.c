@@ -137,6 +137,35 @@ static void transparency(void **state) {
     check(&rows);
 }
 
+// Pictures made by functions, of numbers and of colours, some over 1 and below 0; through every
+// pattern that looks at pictures. Before, they were a plain grey.
+static void functions(void **state) {
+    (void)state;
+    Rows rows = {0};
+    static const char *const texts[] = {
+        "pigment { image_map { function 9, 7 { x*y } } " LAID " }",
+        "pigment { image_map { function 9, 7 { 1.3*x - y } interpolate 2 } " LAID " }",
+        "pigment { image_map { function 12, 12 { pattern { bozo scale 0.2 } } once } translate "
+        "-0.5 "
+        "scale 3 } } plane { z, 3 pigment { rgb 0.4 }",
+        "pigment { image_map { function 11, 13 { pigment { gradient x color_map { [0 rgbf "
+        "<0.9,0.2,0.1,0.4>] [0.5 rgbt <0.2,0.3,1.2,0.5>] [1 rgb <0,1,0>] } scale 0.7 } } "
+        "interpolate 3 } " LAID " } } plane { z, 3 pigment { checker rgb 1 rgb <0.2,0.3,0.6> }",
+        "pigment { image_map { function 8, 6 { spline { linear_spline 0, <0.1,0.2,0.9,0,0> 1, "
+        "<1,0.5,0.3,0,0.3> } } } " LAID " }",
+        "pigment { image_pattern { function 5, 5 { sin(9*x) + y } use_alpha } " LAID " }",
+        "pigment { rgb 0.9 } normal { bump_map { function 40, 40 { sin(20*x)*cos(15*y) } "
+        "interpolate "
+        "2 bump_size 3 } " LAID " }",
+        "texture { material_map { function 6, 6 { (floor(6*x) + floor(6*y))/510 } texture { "
+        "pigment "
+        "{ rgb x } } texture { pigment { rgb y } } texture { pigment { rgb z } } } " LAID " }",
+    };
+    for (size_t i = 0; i < sizeof texts / sizeof *texts; i++)
+        add(&rows, "", texts[i]);
+    check(&rows);
+}
+
 static void layouts(void **state) {
     (void)state;
     Rows rows = {0};
@@ -216,7 +245,8 @@ static void values(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(formats),        cmocka_unit_test(transparency), cmocka_unit_test(layouts),
+        cmocka_unit_test(functions),      cmocka_unit_test(formats),
+        cmocka_unit_test(transparency),   cmocka_unit_test(layouts),
         cmocka_unit_test(gamma_of_files), cmocka_unit_test(values),
     };
     return cmocka_run_group_tests_name("image_map", tests, set_up, tear_down);

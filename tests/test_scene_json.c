@@ -477,7 +477,15 @@ static const struct {
      "pigments[0].warps[0].orientation: its length is 2 instead of 1"},
     {HEAD PIGMENTS "\"textures\": [{}]}", "textures[0]: it has no layers"},
     {HEAD "\"pictures\": [{\"path\": \"\"}]}", "pictures[0].path: it is empty"},
-    {HEAD "\"pictures\": [{}]}", "pictures[0]: 'path' is missing"},
+    {HEAD "\"pictures\": [{}]}", "pictures[0].path: it is missing"},
+    {HEAD "\"pictures\": [{\"type\": \"values\", \"width\": 2, \"height\": 1, \"channels\": 1, "
+          "\"values\": [1]}]}",
+     "pictures[0].values: 1 entries, expected 2 x 1 x 1"},
+    {HEAD "\"pictures\": [{\"type\": \"values\", \"width\": 1, \"height\": 1, \"channels\": 1, "
+          "\"values\": [65536]}]}",
+     "pictures[0].values: entry 0 is not from 0 to 65535"},
+    {HEAD "\"pictures\": [{\"type\": \"values\", \"width\": 1, \"height\": 1, \"channels\": 2}]}",
+     "pictures[0].channels: 2 is neither 1 nor 4"},
     {HEAD "\"pigments\": [{\"type\": \"image_map\"}]}", "pigments[0].picture"},
     {HEAD "\"pigments\": [{\"type\": \"bumps\"}]}", "this pattern is for normals only"},
     {HEAD "\"normals\": [{\"type\": \"bumps\", \"map\": [{\"value\": 0, \"normal\": 0}]}]}",

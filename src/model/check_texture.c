@@ -287,11 +287,31 @@ static void check_place(const Check *c, const FieldPath *up, PatternType kind,
         refuse(c, &type, "this pattern is for %ss only", place);
 }
 
+static void check_picture_values(const Check *c, const FieldPath *path, const Picture *picture) {
+    const FieldPath channels = path_field(path, "channels"), values = path_field(path, "values"),
+                    file = path_field(path, "path");
+    check_range(c, path, "width", picture->width, 1, PICTURE_MAX_SIDE);
+    check_range(c, path, "height", picture->height, 1, PICTURE_MAX_SIDE);
+    if (picture->channels != 1 && picture->channels != 4)
+        refuse(c, &channels, "%d is neither 1 nor 4", picture->channels);
+    if (picture->value_count !=
+        (uint32_t)picture->width * (uint32_t)picture->height * (uint32_t)picture->channels)
+        refuse(c, &values, "%u entries, expected %d x %d x %d", picture->value_count,
+               picture->width, picture->height, picture->channels);
+    if (picture->path)
+        refuse(c, &file, "it has values");
+    for (uint32_t i = 0; i < picture->value_count; i++)
+        if (!(picture->values[i] >= 0.0 && picture->values[i] <= 65535.0))
+            refuse(c, &values, "entry %u is not from 0 to 65535", i);
+}
+
 static void check_picture(const Check *c, const FieldPath *path, const Picture *picture) {
     const FieldPath repeat = path_field(path, "repeat"), file = path_field(path, "path");
-    if (!picture->path || !picture->path[0])
+    check_range(c, path, "type", (int)picture->type, PICTURE_PNG, PICTURE_VALUES);
+    if (picture->type == PICTURE_VALUES)
+        check_picture_values(c, path, picture);
+    else if (!picture->path || !picture->path[0])
         refuse(c, &file, "it is missing");
-    check_range(c, path, "type", (int)picture->type, PICTURE_PNG, PICTURE_HDR);
     check_range(c, path, "decode", (int)picture->decode, DECODE_NONE, DECODE_SRGB);
     check_range(c, path, "layout", (int)picture->layout, LAYOUT_PLANAR, LAYOUT_TORUS);
     check_range(c, path, "interpolate", (int)picture->between, BETWEEN_NONE, BETWEEN_NORMALIZED);

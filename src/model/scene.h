@@ -281,7 +281,10 @@ typedef enum {
     PICTURE_BMP,
     PICTURE_EXR,
     PICTURE_HDR,
+    PICTURE_VALUES, // no file: the numbers are here
 } PictureType;
+
+enum { PICTURE_MAX_SIDE = 1 << 14 }; // of values
 
 // ORDER picture_decode: how the stored values become light.
 typedef enum {
@@ -314,7 +317,10 @@ typedef struct {
 
 // A file and how it is laid on: over the unit square of x and y, around the unit sphere, ...
 typedef struct {
-    const char *path; // in a scene file: absolute, or from where that stands
+    const char *path;            // in a scene file: absolute, or from where that stands
+    int width, height, channels; // PICTURE_VALUES: 1 grey or 4 RGBA, 0 to 65535, rows from the top
+    double *values;
+    uint32_t value_count; // width * height * channels
     PictureType type;
     PictureDecode decode;
     float gamma;

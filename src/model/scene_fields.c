@@ -267,10 +267,22 @@ static bool list_equal(const Field *field, const void *a, const void *b) {
     return true;
 }
 
+static bool table_equal(const Field *field, const void *a, const void *b) {
+    uint32_t count = *(const uint32_t *)field_of(a, field->link);
+    if (count != *(const uint32_t *)field_of(b, field->link))
+        return false;
+    const double *left = *(double *const *)field_of(a, field->offset);
+    const double *right = *(double *const *)field_of(b, field->offset);
+    return count == 0 ||
+           memcmp(left, right, (size_t)count * (size_t)field->columns * sizeof *left) == 0;
+}
+
 static bool member_equal(const Field *field, const void *a, const void *b) {
     if (field->type == FIELD_RECORDS || field->type == FIELD_INDICES)
         return list_equal(field, a, b);
-    assert(field->type != FIELD_TABLE && field->type != FIELD_INDEX_TABLE);
+    if (field->type == FIELD_TABLE)
+        return table_equal(field, a, b);
+    assert(field->type != FIELD_INDEX_TABLE);
     if (field->presence == FIELD_FLAGGED) {
         bool present = *(const bool *)field_of(a, field->link);
         if (present != *(const bool *)field_of(b, field->link))

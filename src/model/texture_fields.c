@@ -131,8 +131,8 @@ static const Record MAP_ENTRY = {NULL, MAP_ENTRY_FIELDS, sizeof(MapEntry), defau
 
 // ORDER picture_type
 static const char *const PICTURE_TYPE_NAMES[] = {
-    "png", "gif",  "tga",  "iff", "pot", "pgm", "ppm",
-    "sys", "jpeg", "tiff", "bmp", "exr", "hdr", NULL,
+    "png",  "gif",  "tga", "iff", "pot", "pgm",    "ppm", "sys",
+    "jpeg", "tiff", "bmp", "exr", "hdr", "values", NULL,
 };
 // ORDER picture_decode
 static const char *const PICTURE_DECODE_NAMES[] = {"none", "file", "old", "power", "srgb", NULL};
@@ -156,7 +156,11 @@ static const Record PALETTE_CHANGE = {NULL, PALETTE_CHANGE_FIELDS, sizeof(Palett
                                       default_change, NULL};
 
 static const Field PICTURE_FIELDS[] = {
-    {.name = "path", .type = FIELD_PATH, .presence = FIELD_REQUIRED, AT(Picture, path)},
+    {.name = "path", .type = FIELD_PATH, AT(Picture, path)},
+    INT(Picture, width, "width"),
+    INT(Picture, height, "height"),
+    INT(Picture, channels, "channels"),
+    TABLE(Picture, values, value_count, "values", 1),
     {.name = "type",
      .type = FIELD_ENUM,
      .presence = FIELD_ALWAYS,

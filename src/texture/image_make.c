@@ -61,6 +61,7 @@ static Curve usual_curve(PictureType type) {
     case PICTURE_PGM:
     case PICTURE_PPM:
     case PICTURE_TIFF:
+    case PICTURE_VALUES:
         break;
     }
     return (Curve){CURVE_NEUTRAL, 1.0f};
@@ -197,8 +198,24 @@ static bool is_opaque(const ImageMap *map, const StoredPicture *file) {
     return map->places || !has_alpha_below_1(map);
 }
 
+static StoredPicture *picture_of_values(const Picture *picture, Arena *arena) {
+    StoredPicture *file = ARENA_NEW(arena, StoredPicture);
+    *file = (StoredPicture){
+        .width = picture->width,
+        .height = picture->height,
+        .channels = picture->channels,
+        .bits = 16,
+        .values = ARENA_ARRAY(arena, float, picture->value_count),
+    };
+    for (uint32_t i = 0; i < picture->value_count; i++)
+        file->values[i] = (float)picture->values[i] / 65535.0f;
+    return file;
+}
+
 ImageMap image_map_make(const Settings *settings, const Picture *picture, Arena *arena) {
-    StoredPicture *file = picture_read(arena, picture->path, picture->type == PICTURE_PNG);
+    StoredPicture *file = picture->type == PICTURE_VALUES
+                              ? picture_of_values(picture, arena)
+                              : picture_read(arena, picture->path, picture->type == PICTURE_PNG);
     Passage passage = passage_of(settings, picture, file);
     ImageMap map = {
         .layout = picture,
@@ -217,7 +234,8 @@ ImageMap image_map_make(const Settings *settings, const Picture *picture, Arena 
     else
         make_values(&map, file, &passage);
     if (picture->change_count > 0 && !map.places)
-        die("'%s' has no palette of which colours could be made transparent", picture->path);
+        die("'%s' has no palette of which colours could be made transparent",
+            picture->path ? picture->path : "a function");
     map.opaque = is_opaque(&map, file);
     return map;
 }

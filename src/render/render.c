@@ -233,6 +233,19 @@ static PatchSetOptions patch_options(const Scene *scene, const RenderOptions *o,
     return patches;
 }
 
+static bool asks_uv(const Scene *scene) {
+    bool any = false;
+    for (uint32_t i = 0; i < scene->object_count; i++)
+        any |= scene->objects[i].uv_mapping;
+    for (uint32_t i = 0; i < scene->texture_count; i++)
+        any |= scene->textures[i].uv_mapping;
+    for (uint32_t i = 0; i < scene->pigment_count; i++)
+        any |= scene->pigments[i].uv_mapping;
+    for (uint32_t i = 0; i < scene->normal_count; i++)
+        any |= scene->normals[i].uv_mapping;
+    return any;
+}
+
 Image *render_scene(const Scene *scene, const RenderOptions *o, Arena *arena,
                     ImageWriteOptions *write, RenderStats *stats) {
     *stats = (RenderStats){.threads = o->threads > 0 ? o->threads : omp_get_num_procs()};
@@ -244,6 +257,8 @@ Image *render_scene(const Scene *scene, const RenderOptions *o, Arena *arena,
     Footprint footprint;
     PatchSetOptions patches = patch_options(scene, o, &footprint);
     World *world = world_create(scene, &patches);
+    if (!o->aovs && !asks_uv(scene))
+        world_without_uv(world);
     const TraceOptions trace = {.quality = o->quality, .alpha = o->alpha, .patches = patches};
     Shading *shading = shading_create(scene, world, &trace);
     stats->memory = world_memory(world);

@@ -2,6 +2,7 @@
 // Rays and points in a World. A ray tries the primitives, then the patches up to the depth found;
 // at equal depth the lower rank counts. Hits of leaves in trees are judged by csg.c.
 #include "render/world_data.h"
+#include "shape/bvh_walk.h"
 
 #include <assert.h>
 
@@ -121,9 +122,27 @@ static void try_solid(RayQuery *query, const Prim *prim) {
     query->stats->shape_hits += at.any;
 }
 
-static void try_prim(RayQuery *query, const Prim *prim) {
+// Most infinite objects are planes, which every ray asks.
+static inline void try_plane(RayQuery *query, const Prim *prim) {
+    double t;
+    query->stats->shape_tests++;
+    if (!plane_depth(&prim->shape.as.plane, query->ray, &t))
+        return;
+    query->stats->shape_hits++;
+    if (!counts(query, t, query->t_min, &prim->leaf))
+        return;
+    keep(query, t, &prim->leaf);
+    query->prim = prim;
+    query->hit = (ShapeHit){.t = t};
+}
+
+static inline void try_prim(RayQuery *query, const Prim *prim) {
     if (!(prim->leaf.mask & query->kind))
         return;
+    if (prim->shape.kind == SHAPE_PLANE) {
+        try_plane(query, prim);
+        return;
+    }
     if (prim->shape.kind == SHAPE_SOLID) {
         try_solid(query, prim);
         return;
@@ -141,7 +160,7 @@ static void try_prim(RayQuery *query, const Prim *prim) {
     }
 }
 
-static double try_item(void *context, uint32_t place) {
+static inline double try_item(void *context, uint32_t place) {
     RayQuery *query = context;
     try_prim(query, &query->world->prims[place]);
     return query->any && query->leaf ? -INFINITY : query->t;
@@ -180,7 +199,7 @@ static void try_prims(RayQuery *query) {
     for (uint32_t i = world->tree_count; i < world->prim_count; i++)
         if (!(query->any && query->leaf))
             try_prim(query, &world->prims[i]);
-    if (!(query->any && query->leaf))
+    if (world->tree_count > 0 && !(query->any && query->leaf))
         bvh_walk(&world->tree, query->ray, fmax(query->t_min, 0.0), query->t, try_item, query);
 }
 
@@ -265,7 +284,9 @@ bool world_nearest(const World *world, const Ray *ray, WorldNear near, double t_
     hit->texture_count = 0;
     if (query.prim) {
         hit->texture_count = shape_textures(&query.prim->shape, hit->p, &query.hit, hit->textures);
-        Vec2 uv = shape_uv(&query.prim->shape, hit->p, &query.hit);
+        Vec2 uv = {0, 0};
+        if (!world->without_uv)
+            uv = shape_uv(&query.prim->shape, hit->p, &query.hit);
         hit->normal = shape_normal(&query.prim->shape, hit->p, &query.hit);
         hit->u = uv.u, hit->v = uv.v;
         hit->bound = hit->reach = 0.0;

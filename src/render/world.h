@@ -43,6 +43,8 @@ void world_destroy(World *world);
 // What the surfaces of functions in it ask, which must live as long as rays are traced. Until it is
 // told, the pigments of functions give nothing. Not while rays are traced.
 void world_use_functions(const World *world, const FunctionPool *functions);
+// Before the first ray: nobody asks for the u and v of primitives, which cost sines; they are 0.
+void world_without_uv(World *world);
 
 // From where on a ray meets things, in units of its t: primitives, patches.
 typedef struct {

@@ -41,6 +41,7 @@ struct World {
     bool exact;         // their hits carry bounds: not POV-Ray's triangles
     double size, unit;  // diameter of all patches; see world_unit()
     PatchSet *filtered; // below a tree that may hide their hits
+    bool without_uv;    // see world_without_uv()
 };
 
 #endif

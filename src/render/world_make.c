@@ -247,6 +247,8 @@ void world_use_functions(const World *world, const FunctionPool *functions) {
     shape_shared_functions(world->csg.shared, functions);
 }
 
+void world_without_uv(World *world) { world->without_uv = true; }
+
 void world_destroy(World *world) {
     if (!world)
         return;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The tree is built from the top: a node's range is cut in two by the surface area heuristic over
 // bins of the centres (Wald 2007), the larger part again, until there are four parts or all are
-// small. It is walked with a stack of its own, the nearest child first.
+// small. bvh_walk.h walks it.
 #include "shape/bvh.h"
 
 #include "base/array.h"
@@ -10,13 +10,7 @@
 #include <float.h>
 #include <string.h>
 
-enum {
-    BINS = 16,
-    // From this depth on ranges are halved by count, 32 more levels at most; each level leaves at
-    // most WIDTH - 1 nodes on the stack.
-    SAH_DEPTH = 48,
-    STACK_SIZE = (SAH_DEPTH + 32) * (BVH_WIDTH - 1) + 1,
-};
+enum { BINS = 16 };
 
 // ---- building -------------------------------------------------------------------------------
 
@@ -100,7 +94,7 @@ static void split(const Builder *b, const Range *range, Range parts[2]) {
     Binning best_binning = {0, 0, 0};
     double best = INFINITY;
     int best_bin = 0;
-    for (int axis = 0; axis < 3 && range->depth < SAH_DEPTH; axis++) {
+    for (int axis = 0; axis < 3 && range->depth < BVH_SAH_DEPTH; axis++) {
         double low = vec_get(centers.low, axis), size = vec_get(centers.high, axis) - low;
         Binning binning = {axis, low, BINS / size};
         int cut = 0;
@@ -207,121 +201,10 @@ Bvh bvh_build(const Box *boxes, uint32_t count, Arena *arena) {
     return bvh;
 }
 
-// ---- walking --------------------------------------------------------------------------------
-
-// All in single precision, four lanes at once. Each axis has its origin twice, rounded so that
-// entering is never found too late nor leaving too early.
-typedef struct {
-    float enter_org[3], leave_org[3], inverse[3];
-    float t_min;
-} WalkRay;
-
-// The next float upwards, of finite ones; nextafterf is a call that every ray would make six times.
-static inline float next_up(float f) {
-    int32_t bits;
-    memcpy(&bits, &f, sizeof bits);
-    bits = f == 0.0F ? 1 : f > 0.0F ? bits + 1 : bits - 1;
-    memcpy(&f, &bits, sizeof f);
-    return f;
-}
-
-static inline float round_down(double x) {
-    float f = (float)x;
-    return (double)f > x ? -next_up(-f) : f;
-}
-
-static inline float round_up(double x) {
-    float f = (float)x;
-    return (double)f < x ? next_up(f) : f;
-}
-
-static WalkRay walk_ray(const Ray *ray, double t_min) {
-    WalkRay w = {.t_min = round_down(t_min)};
-    for (int axis = 0; axis < 3; axis++) {
-        double d = vec_get(ray->dir, axis), org = vec_get(ray->org, axis);
-        // A direction (nearly) within the slab gets a huge inverse that is no infinity: 0 x it is
-        // 0, not NaN, when the origin lies in the plane of a side.
-        w.inverse[axis] = (float)(fabs(d) < 1e-37 ? copysign(1e37, d) : 1.0 / d);
-        bool up = w.inverse[axis] > 0.0F;
-        w.enter_org[axis] = up ? round_up(org) : round_down(org);
-        w.leave_org[axis] = up ? round_down(org) : round_up(org);
-    }
-    return w;
-}
-
-// Two roundings (difference, product) and that of the inverse in each depth: (1 +- 2^-24)^3.
-static const float SLACK = 0x1p-22F;
-
-// Depths at which the ray enters each lane's box, and leaves it.
-static inline void meet_lanes(const BvhNode *node, const WalkRay *ray, float t_max,
-                              float t_in[BVH_WIDTH], float t_out[BVH_WIDTH]) {
-    for (int k = 0; k < BVH_WIDTH; k++)
-        t_in[k] = ray->t_min, t_out[k] = t_max;
-    for (int axis = 0; axis < 3; axis++) {
-        float enter_org = ray->enter_org[axis], leave_org = ray->leave_org[axis];
-        float inverse = ray->inverse[axis];
-        const float *near = inverse < 0.0F ? node->high[axis] : node->low[axis];
-        const float *far = inverse < 0.0F ? node->low[axis] : node->high[axis];
-#pragma omp simd
-        for (int k = 0; k < BVH_WIDTH; k++) {
-            float enter = (near[k] - enter_org) * inverse;
-            float leave = (far[k] - leave_org) * inverse;
-            t_in[k] = enter > t_in[k] ? enter : t_in[k];
-            t_out[k] = leave < t_out[k] ? leave : t_out[k];
-        }
-    }
-#pragma omp simd
-    for (int k = 0; k < BVH_WIDTH; k++) {
-        t_in[k] -= SLACK * fabsf(t_in[k]);
-        t_out[k] += SLACK * fabsf(t_out[k]);
-    }
-}
-
-void bvh_walk(const Bvh *bvh, const Ray *ray, double t_min, double t_max, BvhVisit visit,
-              void *context) {
-    struct {
-        float t;
-        uint32_t child;
-    } stack[STACK_SIZE];
-    if (bvh->node_count == 0)
-        return;
-    const WalkRay walk = walk_ray(ray, t_min);
-    float limit = round_up(t_max);
-    int size = 0;
-    uint32_t child = 0; // the root
-    for (;;) {
-        if (child & BVH_LEAF) {
-            limit = round_up(visit(context, child & ~BVH_LEAF));
-        } else {
-            const BvhNode *node = &bvh->nodes[child];
-            float t_in[BVH_WIDTH], t_out[BVH_WIDTH];
-            meet_lanes(node, &walk, limit, t_in, t_out);
-            // The farther children go deeper into the stack.
-            int base = size;
-            for (int k = 0; k < BVH_WIDTH; k++) {
-                if (!(t_in[k] <= t_out[k]))
-                    continue;
-                int at = size++;
-                assert(size <= STACK_SIZE);
-                while (at > base && stack[at - 1].t < t_in[k]) {
-                    stack[at] = stack[at - 1];
-                    at--;
-                }
-                stack[at].t = t_in[k];
-                stack[at].child = node->child[k];
-            }
-        }
-        do {
-            if (size == 0)
-                return;
-            size--;
-        } while (!(stack[size].t <= limit));
-        child = stack[size].child;
-    }
-}
+// ---- points --------------------------------------------------------------------------------
 
 bool bvh_walk_point(const Bvh *bvh, Vec3 p, BvhVisitPoint visit, void *context) {
-    uint32_t stack[STACK_SIZE];
+    uint32_t stack[BVH_STACK];
     int size = 0;
     if (bvh->node_count == 0)
         return false;
@@ -335,7 +218,7 @@ bool bvh_walk_point(const Bvh *bvh, Vec3 p, BvhVisitPoint visit, void *context) 
                 continue;
             uint32_t child = node->child[k];
             if (!(child & BVH_LEAF)) {
-                assert(size < STACK_SIZE);
+                assert(size < BVH_STACK);
                 stack[size++] = child;
             } else if (visit(context, child & ~BVH_LEAF)) {
                 return true;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A tree of boxes, four children to a node, over items that only their boxes describe. Built once;
-// read-only then, any number of threads.
+// read-only then, any number of threads. Rays walk it by bvh_walk.h.
 #ifndef SHAPE_BVH_H
 #define SHAPE_BVH_H
 
@@ -9,7 +9,13 @@
 
 #include <stdint.h>
 
-enum { BVH_WIDTH = 4 };
+enum {
+    BVH_WIDTH = 4,
+    // From this depth on ranges are halved by count, 32 more levels at most; each level leaves at
+    // most WIDTH - 1 nodes on the stack of those who walk.
+    BVH_SAH_DEPTH = 48,
+    BVH_STACK = (BVH_SAH_DEPTH + 32) * (BVH_WIDTH - 1) + 1,
+};
 #define BVH_LEAF 0x80000000U
 
 // Boxes in single precision, rounded outwards; per axis all lanes together. A child is the index of
@@ -29,13 +35,6 @@ typedef struct {
 
 // boxes: finite, not empty; fewer than 2^31. Nodes and items live in arena.
 Bvh bvh_build(const Box *boxes, uint32_t count, Arena *arena);
-
-// Calls visit for the items (their place in leaf order) whose boxes the ray meets between t_min
-// (>= 0) and t_max, nearer boxes first; visit returns the new t_max, -INFINITY to end. Boxes that
-// begin exactly at t_max are visited. Conservative against all rounding of its own.
-typedef double (*BvhVisit)(void *context, uint32_t place);
-void bvh_walk(const Bvh *bvh, const Ray *ray, double t_min, double t_max, BvhVisit visit,
-              void *context);
 
 // Calls visit for the items whose box holds p; ends when it returns true, and then is true.
 typedef bool (*BvhVisitPoint)(void *context, uint32_t place);

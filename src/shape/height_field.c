@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Height fields: each cell of the grid is two triangles, cut along the diagonal x + z = 1. Cells in
 // squares of BLOCK stand below a tree; inside one the ray goes from cell to cell.
-#include "shape/bvh.h"
+#include "shape/bvh_walk.h"
 #include "shape/solid.h"
 
 enum { BLOCK = 8 };

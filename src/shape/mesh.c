@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Meshes: facets below a tree of their own, which all objects with this mesh share.
-#include "shape/bvh.h"
+#include "shape/bvh_walk.h"
 #include "shape/facet.h"
 #include "shape/solid.h"
 

@@ -151,6 +151,16 @@ Box shape_ellipsoid_box(Vec3 center, Vec3 a, Vec3 b, Vec3 c);
 Vec3 shape_world_point(const Transform *transform, Vec3 p);
 Vec3 shape_world_dir(const Transform *transform, Vec3 d);
 
+// POV-Ray's least depth of a plane.
+#define PLANE_NEAREST 1e-6
+// The one hit, if there is one. Inline: every ray asks every plane.
+static inline bool plane_depth(const PlaneShape *plane, const Ray *ray, double *t) {
+    double slope = vec_dot(plane->normal, ray->dir);
+    if (!(fabs(slope) >= SHAPE_EPSILON))
+        return false;
+    *t = -(vec_dot(plane->normal, ray->org) - plane->distance) / slope;
+    return *t >= PLANE_NEAREST && *t <= SHAPE_FARTHEST;
+}
 int plane_hits(const Shape *shape, const Ray *ray, ShapeHit hits[SHAPE_MAX_HITS]);
 bool plane_inside(const Shape *shape, Vec3 p);
 

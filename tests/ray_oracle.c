@@ -314,67 +314,76 @@ bool ray_oracle_near(const PatchDef *defs, int count, const Ray *ray, double t0,
 
 // ---- Points
 
-static Real curve(const Real *p, int n, Real t, Real *slope) {
-    Real row[SIDE];
-    row[0] = p[0];
-    *slope = 0;
-    for (int i = 1; i <= n; i++)
-        row[i] = p[i];
-    for (int k = n; k > 0; k--) {
-        if (k == 1)
-            *slope = n * (row[1] - row[0]);
-        for (int i = 0; i < k; i++) // as a mean: weights keep their relative accuracy
-            row[i] = (1 - t) * row[i] + t * row[i + 1];
+// Bernstein polynomials of degree n and their derivatives: all terms are >= 0 for t in [0,1], so a
+// sum of them keeps its relative accuracy, that of weights too.
+static void basis(int n, Real t, Real *value, Real *slope) {
+    Real low[SIDE] = {1};
+    for (int m = 1; m < n; m++) {
+        for (int i = m; i > 0; i--)
+            low[i] = (i < m ? low[i] * (1 - t) : 0) + low[i - 1] * t;
+        low[0] *= 1 - t;
     }
-    return row[0];
+    for (int i = 0; i <= n; i++) {
+        Real here = i < n ? low[i] : 0, before = i > 0 ? low[i - 1] : 0;
+        value[i] = here * (1 - t) + before * t;
+        slope[i] = n * (before - here);
+    }
 }
 
-// Value and both derivatives of one coordinate.
-static void surface(const PatchDef *def, const Real *p, Real u, Real v, Real out[3]) {
+typedef struct {
+    Real u[SIDE], v[SIDE], slope_u[SIDE], slope_v[SIDE];
+} Basis;
+
+// One axis less `from`, times the weights; axis 3: the weights. out[1] and out[2], the derivatives,
+// only when asked for.
+static void coordinate(const PatchDef *def, const Basis *b, int axis, double from, bool slopes,
+                       Real out[3]) {
     int nu = (int)def->degree_u, nv = (int)def->degree_v;
-    Real row[SIDE] = {0}, slope[SIDE] = {0}, none;
-    for (int i = 0; i <= nu; i++)
-        row[i] = curve(p + i * (nv + 1), nv, v, &slope[i]);
-    out[0] = curve(row, nu, u, &out[1]);
-    out[2] = curve(slope, nu, u, &none);
+    out[0] = out[1] = out[2] = 0;
+    for (int i = 0; i <= nu; i++) {
+        Real row = 0, slope = 0;
+        for (int j = 0; j <= nv; j++) {
+            int k = i * (nv + 1) + j;
+            Real p = axis < 3 ? (Real)vec_get(def->points[k], axis) - from : 1;
+            if (def->weights)
+                p *= def->weights[k];
+            row += b->v[j] * p;
+            slope += slopes ? b->slope_v[j] * p : 0;
+        }
+        out[0] += b->u[i] * row;
+        out[1] += b->slope_u[i] * row;
+        out[2] += b->u[i] * slope;
+    }
 }
 
-// One coordinate of the patch less `from`, weights included.
-static void coordinate(const PatchDef *def, int axis, double from, Real out[3]) {
-    Real p[POINTS] = {0}, w[3];
-    int count = (int)((def->degree_u + 1) * (def->degree_v + 1));
-    Real u = out[0], v = out[1];
-    for (int k = 0; k < count; k++)
-        p[k] =
-            ((Real)vec_get(def->points[k], axis) - from) * (def->weights ? def->weights[k] : 1.0);
-    surface(def, p, u, v, out);
-    if (!def->weights)
-        return;
-    for (int k = 0; k < count; k++)
-        p[k] = def->weights[k];
-    surface(def, p, u, v, w);
-    out[0] /= w[0];
-    for (int k = 1; k < 3; k++)
-        out[k] = (out[k] - out[0] * w[k]) / w[0];
+// The point less `from`, and the derivatives if asked for.
+static void jet_less(const PatchDef *def, Vec3 from, Real u, Real v, bool slopes, Real s[3][3]) {
+    Basis b;
+    Real w[3] = {1, 0, 0};
+    basis((int)def->degree_u, u, b.u, b.slope_u);
+    basis((int)def->degree_v, v, b.v, b.slope_v);
+    if (def->weights)
+        coordinate(def, &b, 3, 0.0, slopes, w);
+    for (int axis = 0; axis < 3; axis++) {
+        coordinate(def, &b, axis, vec_get(from, axis), slopes, s[axis]);
+        s[axis][0] /= w[0];
+        for (int k = 1; k < 3; k++)
+            s[axis][k] = (s[axis][k] - s[axis][0] * w[k]) / w[0];
+    }
 }
 
 void ray_oracle_jet(const PatchDef *def, double u, double v, Vec3 out[3]) {
     Real s[3][3];
-    for (int axis = 0; axis < 3; axis++) {
-        s[axis][0] = u;
-        s[axis][1] = v;
-        coordinate(def, axis, 0.0, s[axis]);
-    }
+    jet_less(def, vec3(0.0, 0.0, 0.0), u, v, true, s);
     for (int k = 0; k < 3; k++)
         out[k] = vec3((double)s[0][k], (double)s[1][k], (double)s[2][k]);
 }
 
 double ray_oracle_residual(const PatchDef *def, const Ray *ray, double t, double u, double v) {
-    Real square = 0;
+    Real s[3][3], square = 0;
+    jet_less(def, ray->org, u, v, false, s);
     for (int axis = 0; axis < 3; axis++) {
-        Real s[3] = {u, v, 0};
-        coordinate(def, axis, vec_get(ray->org, axis), s);
-        Real off = (Real)t * vec_get(ray->dir, axis) - s[0];
+        Real off = (Real)t * vec_get(ray->dir, axis) - s[axis][0];
         square += off * off;
     }
     return (double)sqrtl(square);

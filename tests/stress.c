@@ -29,8 +29,10 @@ typedef struct {
     uint64_t number; // of the scene
     StressScene scene;
     PatchSet *sets[METHODS];
-    Tally *tally;    // one a method
-    PatchHit *first; // of each ray by qi, on the instruction set that was asked for; t NaN: none
+    Tally *tally; // one a method
+    // Of each ray, as qi answers it on the instruction set that was asked for.
+    StressRay *rays;
+    PatchHit *first; // t NaN: none
     bool *first_any;
 } Stage;
 
@@ -113,9 +115,11 @@ static void answer(const Stage *stage, int method, const StressRay *r, uint64_t 
 
 static const char *const isas[] = {"scalar", "avx2", "avx512"};
 
-static void keep(const Stage *stage, int method, uint64_t ray, const StressAnswer *a) {
+static void keep(const Stage *stage, int method, uint64_t ray, const StressRay *r,
+                 const StressAnswer *a) {
     if (method != METHOD_QI || !stage->first)
         return;
+    stage->rays[ray] = *r;
     stage->first[ray] = a->hit;
     if (!a->found)
         stage->first[ray].t = NAN;
@@ -139,12 +143,9 @@ static void compare_isas(const Stage *stage, uint64_t count) {
         uint64_t bits = 0;
 #pragma omp parallel for schedule(dynamic, 64) reduction(+ : bits)
         for (uint64_t ray = 0; ray < count; ray++) {
-            StressRay r;
             StressAnswer a;
-            stress_ray_make(stage->which, &stage->scene, stage->options->seed, stage->number, ray,
-                            &r);
-            ask(stage->sets[METHOD_QI], &r, ASK_NEAREST, &a);
-            ask(stage->sets[METHOD_QI], &r, ASK_ANY, &a);
+            ask(stage->sets[METHOD_QI], &stage->rays[ray], ASK_NEAREST, &a);
+            ask(stage->sets[METHOD_QI], &stage->rays[ray], ASK_ANY, &a);
             const PatchHit *first = &stage->first[ray];
             bool same = a.found == !isnan(first->t) && (!a.found || same_bits(&a.hit, first)) &&
                         a.any == stage->first_any[ray];
@@ -245,7 +246,7 @@ static void trace(const Stage *stage, uint64_t ray) {
         }
         StressAnswer a;
         answer(stage, method, &r, ray, &a);
-        keep(stage, method, ray, &a);
+        keep(stage, method, ray, &r, &a);
         truth.open = false;
         StressVerdict verdict = stress_judge(stage->which, (PatchMethod)method, &truth, &a);
         record(stage, method, &r, ray, verdict, &a, &truth);
@@ -303,6 +304,7 @@ static void run_case(const StressOptions *options, const StressCase *which, doub
                    which->per_scene > 1000 || number % 16 == 0 || options->only_method != NULL);
         uint64_t left = total - number * per_scene, count = left < per_scene ? left : per_scene;
         if (stage.sets[METHOD_QI] && !stress_case_leaves(which)) {
+            stage.rays = ARENA_ARRAY(stage.scene.arena, StressRay, count);
             stage.first = ARENA_ARRAY(stage.scene.arena, PatchHit, count);
             stage.first_any = ARENA_ARRAY(stage.scene.arena, bool, count);
         }

@@ -81,6 +81,8 @@ void scene_fold9(StressScene *s, Rng *rng, double unused);
 void scene_line18(StressScene *s, Rng *rng, double unused);
 void scene_double_rows(StressScene *s, Rng *rng, double unused);
 void scene_aspect(StressScene *s, Rng *rng, double ratio);
+void scene_ribbon(StressScene *s, Rng *rng, double ratio);
+void scene_ribbon10(StressScene *s, Rng *rng, double unused);
 void scene_cusp(StressScene *s, Rng *rng, double unused);
 void scene_self_crossing(StressScene *s, Rng *rng, double unused);
 void scene_twisted(StressScene *s, Rng *rng, double unused);

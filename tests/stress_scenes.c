@@ -256,6 +256,35 @@ void scene_aspect(StressScene *s, Rng *rng, double ratio) {
         p[k] = vec_mul(p[k], stretch);
 }
 
+// All that is above, and below, stretched: also along a direction that is no axis, so that all
+// three coordinates have the rounding of the longest.
+void scene_ribbon(StressScene *s, Rng *rng, double ratio) {
+    static void (*const kinds[])(StressScene *, Rng *, double) = {
+        scene_random,        scene_twisted,   scene_cusp,
+        scene_self_crossing, scene_collapsed, scene_double_rows};
+    kinds[rng_next(rng) % (sizeof kinds / sizeof *kinds)](s, rng, 0.3);
+    double by[3] = {ratio, 1.0, 1.0};
+    uint64_t kind = rng_next(rng) % 4;
+    if (kind == 1)
+        by[1] = ratio; // a sheet thinner than it is wide
+    else if (kind == 2)
+        by[1] = sqrt(ratio);
+    for (int k = 2; k > 0; k--) {
+        int other = (int)(rng_next(rng) % (uint64_t)(k + 1));
+        double swap = by[k];
+        by[k] = by[other], by[other] = swap;
+    }
+    for (int k = 0; k < count_of(s, 0); k++)
+        points_of(s, 0)[k] = vec_mul(points_of(s, 0)[k], vec3(by[0], by[1], by[2]));
+    if (rng_next(rng) % 2)
+        turn_all(s, rng);
+}
+
+void scene_ribbon10(StressScene *s, Rng *rng, double unused) {
+    (void)unused;
+    scene_ribbon(s, rng, 1e10);
+}
+
 // x = s^3 over z = s^2 along u: a cusp along v, bent a little.
 void scene_cusp(StressScene *s, Rng *rng, double unused) {
     (void)unused;

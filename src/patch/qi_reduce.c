@@ -18,13 +18,18 @@
 // is proved and the reduction goes on.
 //
 // Where J is singular (collapsed edges, silhouettes, rays in the surface) the map is a rotation to
-// the direction of the larger tangent and the one across; both coordinates are tested, and clip
-// what they can. What does not shrink is halved, across the direction that is longer as the ray
-// sees it. A piece wholly within the tolerance of the ray is one hit, and so is a curve of a piece
-// on which one coordinate vanishes while the other is nothing but rounding: a tangent ray, or one
-// that lies in the surface.
+// the direction of the larger tangent and the one across, after x and y were measured in units of
+// their own rounding; both coordinates are tested, and clip what they can. (The units matter where
+// the precisions differ: of a ribbon 1e10 times longer than wide, seen from its length away, one
+// coordinate is exact to 1e-14 of its size and the other to 1e-6. Mixed size by size, the first
+// would be known no better than the second, and a curve along which the second vanishes within its
+// rounding would have to be covered by 1e6 pieces.) What does not shrink is halved, across the
+// direction that is longer as the ray sees it. A piece wholly within the tolerance of the ray is
+// one hit, and so is a curve of a piece on which one coordinate vanishes while the other is nothing
+// but rounding: a tangent ray, or one that lies in the surface.
 #include "patch/qi.h"
 
+#include "patch/qi_pole.h"
 #include "patch/qi_root.h"
 #include "patch/quasi.h"
 
@@ -41,6 +46,7 @@ static const double CERTAIN_SLOPE = 0.25, LIKELY_SLOPE = 0.75;
 
 typedef struct {
     QiTarget target;
+    unsigned poles; // qi_poles()
     uint64_t steps, work_limit;
 } Search;
 
@@ -285,20 +291,27 @@ typedef struct {
     bool along_u, low_first;
 } Rest;
 
-// The two forms of a piece: A (x, y) where the mean Jacobian allows it (true), else the rotation,
-// both after x and y were brought to one size.
-static inline bool choose_forms(const QiTarget *q, double xu, double yu, double xv, double yv,
-                                QiForm forms[2]) {
+// A (x, y), after x and y were brought to one size. False: the mean Jacobian does not allow it.
+static inline bool regular_forms(const QiTarget *q, double xu, double yu, double xv, double yv,
+                                 QiForm forms[2]) {
     double wx = q->weight_x, wy = q->weight_y;
     xu *= wx, xv *= wx, yu *= wy, yv *= wy;
     double det = xu * yv - xv * yu;
     double uu = xu * xu + yu * yu, vv = xv * xv + yv * yv;
     // Tangents at less than about 3 degrees to each other: A would stretch the remainder 20 times.
-    if (det * det > 0.0025 * uu * vv && isfinite(1.0 / det)) {
-        forms[0] = (QiForm){yv / det * wx, -xv / det * wy, 1.0, 0.0};
-        forms[1] = (QiForm){-yu / det * wx, xu / det * wy, 0.0, 1.0};
-        return true;
-    }
+    if (!(det * det > 0.0025 * uu * vv && isfinite(1.0 / det)))
+        return false;
+    forms[0] = (QiForm){yv / det * wx, -xv / det * wy, 1.0, 0.0};
+    forms[1] = (QiForm){-yu / det * wx, xu / det * wy, 0.0, 1.0};
+    return true;
+}
+
+// The rotation of x and y in units of their rounding.
+static inline void singular_forms(const QiTarget *q, double xu, double yu, double xv, double yv,
+                                  QiForm forms[2]) {
+    double wx = q->unit_x, wy = q->unit_y;
+    xu *= wx, xv *= wx, yu *= wy, yv *= wy;
+    double uu = xu * xu + yu * yu, vv = xv * xv + yv * yv;
     double gx = uu >= vv ? xu : xv, gy = uu >= vv ? yu : yv, length = sqrt(larger(uu, vv));
     if (!(length > 0.0))
         gx = length = 1.0, gy = 0.0;
@@ -306,7 +319,6 @@ static inline bool choose_forms(const QiTarget *q, double xu, double yu, double 
     gy /= length;
     forms[0] = (QiForm){gx * wx, gy * wy, gx * xu + gy * yu, gx * xv + gy * yv};
     forms[1] = (QiForm){-gy * wx, gx * wy, gx * yu - gy * xu, gx * yv - gy * xv};
-    return false;
 }
 
 static inline bool within(const QiNet *p, int count, double radius) {
@@ -368,8 +380,11 @@ static inline bool reduce_piece(Search *q, int du, int dv, Piece *p) {
         restrict_axis(target->whole.w, wu, wv, du, dv, p->net.w);
         scale_rational(&p->net, (du + 1) * (dv + 1));
     }
-    p->regular = choose_forms(target, trend_u(p->net.x, du, dv), trend_u(p->net.y, du, dv),
-                              trend_v(p->net.x, du, dv), trend_v(p->net.y, du, dv), p->forms);
+    double xu = trend_u(p->net.x, du, dv), yu = trend_u(p->net.y, du, dv);
+    double xv = trend_v(p->net.x, du, dv), yv = trend_v(p->net.y, du, dv);
+    p->regular = regular_forms(target, xu, yu, xv, yv, p->forms);
+    if (!p->regular)
+        singular_forms(target, xu, yu, xv, yv, p->forms);
 
     double zu = quasi_z_infinity(du), zv = quasi_z_infinity(dv);
     p->u = p->v = (Span){0.0, 1.0};
@@ -498,7 +513,7 @@ static inline Step step_of(Search *q, BezierRect rect, int du, int dv, Rest *res
     if (!reduce_piece(q, du, dv, &p))
         return STEP_DONE;
     rest->rect = p.left;
-    if (finish_single(q, &p))
+    if ((q->poles && qi_pole_settle(&q->target, q->poles, &p.net, rect)) || finish_single(q, &p))
         return STEP_DONE;
 
     double width_u = p.left.u1 - p.left.u0, width_v = p.left.v1 - p.left.v0;
@@ -575,6 +590,7 @@ static int intersect(const Bezier *patch, const double *weights, const QiQuery *
     if (!qi_target_init(&q.target, patch, weights, query, mode, found,
                         mode == QI_ALL ? QI_MAX_HITS : 1))
         return 0;
+    q.poles = qi_poles(&q.target);
     q.steps = 0;
     q.work_limit = (uint64_t)qi_work_limit(patch);
     search(&q, query->rect);

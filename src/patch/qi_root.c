@@ -116,14 +116,41 @@ static bool on_ray(const QiTarget *q, Point p, double slacks) {
     return fabs(p.x) <= x && fabs(p.y) <= y;
 }
 
+// With one parameter fixed, by how much the other brings (x, y) nearest to 0, in units of rounding;
+// (xp, yp) are the derivatives along that other.
+static double make_up(const QiTarget *q, double x, double y, double xp, double yp) {
+    x *= q->unit_x, xp *= q->unit_x, y *= q->unit_y, yp *= q->unit_y;
+    double square = xp * xp + yp * yp;
+    return square > 0.0 ? -(x * xp + y * yp) / square : 0.0;
+}
+
+// Newton's step from p, held inside rect. Where one parameter stops at a side the other makes up
+// for it: of a ribbon the parameter across may be known to 1e-6 only, and a root that is nearer to
+// the side than that would leave the one along it as wrong, which rounding does not explain.
+static void step_inside(const QiTarget *q, BezierRect rect, Point p, double *u, double *v) {
+    double det = p.xu * p.yv - p.xv * p.yu, u0 = *u, v0 = *v;
+    double nu = u0 - (p.yv * p.x - p.xv * p.y) / det, nv = v0 - (p.xu * p.y - p.yu * p.x) / det;
+    if (nu < rect.u0 || nu > rect.u1) {
+        double du = clamp(nu, rect.u0, rect.u1) - u0;
+        nu = u0 + du;
+        nv = v0 + make_up(q, p.x + p.xu * du, p.y + p.yu * du, p.xv, p.yv);
+    }
+    if (nv < rect.v0 || nv > rect.v1) {
+        double dv = clamp(nv, rect.v0, rect.v1) - v0;
+        nv = v0 + dv;
+        nu = u0 + make_up(q, p.x + p.xv * dv, p.y + p.yv * dv, p.xu, p.yu);
+    }
+    *u = clamp(nu, rect.u0, rect.u1);
+    *v = clamp(nv, rect.v0, rect.v1);
+}
+
 bool qi_root_sharpen(QiTarget *q, BezierRect rect, double error_u, double error_v) {
     double u = 0.5 * (rect.u0 + rect.u1), v = 0.5 * (rect.v0 + rect.v1);
     Point p = eval(q, u, v);
     // At 2/3 a step throughout, 96 steps would still take any start to 2^-53 of the piece.
     for (int n = 0; n < 96; n++) {
-        double det = p.xu * p.yv - p.xv * p.yu;
-        double nu = clamp(u - (p.yv * p.x - p.xv * p.y) / det, rect.u0, rect.u1);
-        double nv = clamp(v - (p.xu * p.y - p.yu * p.x) / det, rect.v0, rect.v1);
+        double nu = u, nv = v;
+        step_inside(q, rect, p, &nu, &nv);
         if (!(fabs(nu - u) + fabs(nv - v) > DBL_EPSILON)) // no step left, or no number
             break;
         Point next = eval(q, nu, nv);
@@ -322,6 +349,8 @@ bool qi_target_init(QiTarget *q, const Bezier *patch, const double *weights, con
     }
     q->weight_x = weight_of(q->frame.side_x, q->frame.slack_x);
     q->weight_y = weight_of(q->frame.side_y, q->frame.slack_y);
+    q->unit_x = q->frame.slack_x > DBL_MIN ? 1.0 / q->frame.slack_x : 1.0;
+    q->unit_y = q->frame.slack_y > DBL_MIN ? 1.0 / q->frame.slack_y : 1.0;
     q->list = (QiList){mode, query->t_min, query->t_max, 0, capacity, found};
     q->newton = 0;
     return true;

@@ -20,6 +20,7 @@ typedef struct {
     bool rational;
     QiNet whole;
     double weight_x, weight_y; // bring x and y to size 1, unless they are rounding and no more
+    double unit_x, unit_y;     // bring their rounding to size 1
     uint64_t newton;           // points evaluated on the way to a root
 } QiTarget;
 

@@ -7,8 +7,8 @@
 
 #include <math.h>
 
-void finish_diffuse(Tracer *tracer, const LitLayer *layer, Vec3 dir, Rgb light, bool backside,
-                    Rgb *color) {
+void finish_diffuse(Tracer *tracer, const LitLayer *layer, Vec3 dir, const Rgb *light,
+                    bool backside, Rgb *color) {
     const Finish *finish = layer->finish;
     double diffuse = backside ? finish->diffuse_back : finish->diffuse;
     if (diffuse <= 0.0)
@@ -19,7 +19,7 @@ void finish_diffuse(Tracer *tracer, const LitLayer *layer, Vec3 dir, Rgb light, 
     intensity *= diffuse * layer->opacity;
     if (finish->crand > 0.0f)
         intensity -= tracer_random(&tracer->crand) * finish->crand;
-    *color = rgb_add(*color, rgb_mul(rgb_scale(layer->color, intensity), light));
+    *color = rgb_add(*color, rgb_mul(rgb_scale(layer->color, intensity), *light));
 }
 
 double finish_metallic_fresnel(double cosine) {
@@ -31,17 +31,17 @@ double finish_metallic_fresnel(double cosine) {
 }
 
 // The highlight's colour: the light's, drawn towards the surface's by `metallic`.
-static Rgb highlight_color(const LitLayer *layer, Vec3 dir, Rgb light) {
+static inline Rgb highlight_color(const LitLayer *layer, Vec3 dir, const Rgb *light) {
     float metallic = layer->finish->metallic;
     if (!(metallic > 0.0f))
-        return light;
+        return *light;
     double f = finish_metallic_fresnel(vec_dot(layer->normal, dir));
     Rgb tint = rgb_scale(rgb(layer->color.r - 1.0f, layer->color.g - 1.0f, layer->color.b - 1.0f),
                          metallic * (1.0 - f));
-    return rgb_mul(light, rgb_add(rgb(1.0f, 1.0f, 1.0f), tint));
+    return rgb_mul(*light, rgb_add(rgb(1.0f, 1.0f, 1.0f), tint));
 }
 
-void finish_phong(const LitLayer *layer, Vec3 eye, Vec3 dir, Rgb light, Rgb *color) {
+void finish_phong(const LitLayer *layer, Vec3 eye, Vec3 dir, const Rgb *light, Rgb *color) {
     const Finish *finish = layer->finish;
     Vec3 mirrored = vec_madd(eye, -2.0 * vec_dot(eye, layer->normal), layer->normal);
     double cosine = vec_dot(mirrored, dir);
@@ -54,7 +54,7 @@ void finish_phong(const LitLayer *layer, Vec3 eye, Vec3 dir, Rgb light, Rgb *col
     *color = rgb_add(*color, rgb_scale(highlight_color(layer, dir, light), intensity));
 }
 
-void finish_specular(const LitLayer *layer, Vec3 eye, Vec3 dir, Rgb light, Rgb *color) {
+void finish_specular(const LitLayer *layer, Vec3 eye, Vec3 dir, const Rgb *light, Rgb *color) {
     const Finish *finish = layer->finish;
     Vec3 halfway = vec_scale(vec_sub(dir, eye), 0.5);
     double length = vec_length(halfway);

@@ -76,23 +76,23 @@ bool light_aim(const Shading *shading, uint32_t index, Vec3 p, Vec3 offset, Ligh
     return aim(light, &shading->axes[index], p, vec_add(light->location, offset), sample);
 }
 
-LightSample light_sample(const Shading *shading, uint32_t index, Vec3 p, Vec3 offset) {
+void light_sample(const Shading *shading, uint32_t index, Vec3 p, Vec3 offset, LightSample *s) {
     const Light *light = &shading->scene->lights[index];
     const LightAxis *axis = &shading->axes[index];
-    LightSample s = {.ready = true};
-    if (!aim(light, axis, p, vec_add(light->location, offset), &s))
-        return s; // the surface goes through the light: no light arrives
-    s.attenuation = fading(light, s.distance);
+    s->ready = true;
+    s->shadow_done = false;
+    if (!aim(light, axis, p, vec_add(light->location, offset), s)) {
+        // The surface goes through the light: no light arrives.
+        *s = (LightSample){.ready = true};
+        return;
+    }
+    double attenuation = fading(light, s->distance);
     if (light->type == LIGHT_SPOT)
-        s.attenuation *= spot_attenuation(light, axis, s.dir, s.distance);
+        attenuation *= spot_attenuation(light, axis, s->dir, s->distance);
     else if (light->type == LIGHT_CYLINDER)
-        s.attenuation *= cylinder_attenuation(light, axis, vec_sub(p, light->location));
-    s.color = rgb_scale(light->color, s.attenuation);
-    return s;
-}
-
-bool light_is_black(Rgb c) {
-    return fabsf(c.r) < SHADE_EPS && fabsf(c.g) < SHADE_EPS && fabsf(c.b) < SHADE_EPS;
+        attenuation *= cylinder_attenuation(light, axis, vec_sub(p, light->location));
+    s->attenuation = attenuation;
+    s->color = rgb_scale(light->color, attenuation);
 }
 
 // A light behind the surface reaches only its back, or both sides of a double_illuminate.
@@ -107,12 +107,12 @@ void light_shine(Tracer *tracer, const LitLayer *layer, bool shadowless, const L
     const Surface *surface = layer->surface;
     Rgb sum = {0};
     Vec3 eye = surface->path->ray.dir;
-    finish_diffuse(tracer, layer, s->dir, s->color, backside, &sum);
+    finish_diffuse(tracer, layer, s->dir, &s->color, backside, &sum);
     if (!shadowless && !backside) {
         if (layer->finish->phong > 0.0f)
-            finish_phong(layer, eye, s->dir, s->color, &sum);
+            finish_phong(layer, eye, s->dir, &s->color, &sum);
         if (layer->finish->specular > 0.0f)
-            finish_specular(layer, eye, s->dir, s->color, &sum);
+            finish_specular(layer, eye, s->dir, &s->color, &sum);
     }
     if (layer->finish->irid > 0.0f)
         finish_irid(tracer->shading->scene, layer->finish, surface->hit->p, eye, s->dir,
@@ -146,11 +146,11 @@ static void add_light(Tracer *tracer, const LitLayer *layer, uint32_t index, Rgb
     bool spread = light->has_area && light->area.illumination && shading->quality.area_lights;
     LightSample *s = &tracer->lights[index];
     if (!s->ready) {
-        *s = light_sample(shading, index, surface->hit->p, vec3(0, 0, 0));
+        light_sample(shading, index, surface->hit->p, vec3(0, 0, 0), s);
         if (spread) // attenuated point by point
             s->color = light->color;
     }
-    if (light_is_black(s->color)) {
+    if (light_is_black(&s->color)) {
         tell(tracer, layer, index, s, "does not reach it", (Rgb){0});
         return;
     }
@@ -160,17 +160,20 @@ static void add_light(Tracer *tracer, const LitLayer *layer, uint32_t index, Rgb
         return;
     }
     find_shadow(tracer, surface, index, s);
-    if (light_is_black(s->color)) {
+    if (light_is_black(&s->color)) {
         tell(tracer, layer, index, s, "is hidden", (Rgb){0});
         return;
     }
-    Rgb before = *color;
+    Rgb before = {0};
+    if (tracer->story)
+        before = *color;
     if (spread)
         area_shine(tracer, layer, index, s, color);
     else
         light_shine(tracer, layer, light->shadowless, s, behind, color);
-    tell(tracer, layer, index, s, "shines",
-         rgb(color->r - before.r, color->g - before.g, color->b - before.b));
+    if (tracer->story)
+        tell(tracer, layer, index, s, "shines",
+             rgb(color->r - before.r, color->g - before.g, color->b - before.b));
 }
 
 void lights_add(Tracer *tracer, const LitLayer *layer, Rgb *color) {

@@ -148,8 +148,9 @@ void area_shine(Tracer *tracer, const LitLayer *layer, uint32_t index, const Lig
                    (float)(sample->color.b / points));
     for (int j = 0; j < area->size[1]; j++)
         for (int i = 0; i < area->size[0]; i++) {
-            LightSample s = light_sample(tracer->shading, index, layer->surface->hit->p,
-                                         grid_offset(&grid, i, j));
+            LightSample s;
+            light_sample(tracer->shading, index, layer->surface->hit->p, grid_offset(&grid, i, j),
+                         &s);
             s.color = rgb_scale(part, s.attenuation);
             bool dark, behind = light_behind(layer, s.dir, &dark);
             if (!dark)

@@ -89,7 +89,9 @@ Rgb reflect_trace(Tracer *tracer, const Surface *surface, const LayerReflection 
     next.alpha = false; // a mirror never shows the transparent background
     next.nesting++;
     tracer->stats.reflected++;
-    Rgb seen = color_rgb(trace_path(tracer, &next, false));
+    Color color;
+    trace_path(tracer, &next, false, &color);
+    Rgb seen = color_rgb(color);
     if (reflection->finish->irid > 0.0f)
         finish_irid(tracer->shading->scene, reflection->finish, surface->hit->p, path->ray.dir,
                     next.ray.dir, reflection->normal, &seen);

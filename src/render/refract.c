@@ -34,7 +34,7 @@ static bool bend(Tracer *tracer, const Surface *surface, const LayerReflection *
     double k = ratio * cosine - sqrt(radicand);
     next->ray.dir = vec_add(vec_scale(surface->path->ray.dir, ratio), vec_scale(against, k));
     tracer->stats.refracted++;
-    *color = trace_path(tracer, next, false);
+    trace_path(tracer, next, false, color);
     return false;
 }
 
@@ -52,7 +52,7 @@ bool refract_trace(Tracer *tracer, const Surface *surface, const Finish *finish,
     bool together = fabs(bending.dispersion - 1.0) < SHADE_EPS;
     if (together && fabs(bending.ior - 1.0) < SHADE_EPS) {
         tracer->stats.transmitted++;
-        *color = trace_path(tracer, &next, true);
+        trace_path(tracer, &next, true, color);
         return false;
     }
 

@@ -13,7 +13,7 @@
 #include <unistd.h>
 
 static const double QUIET_SECONDS = 1.0;
-static const char MAGIC[8] = "QIPOVST1";
+static const char MAGIC[8] = "QIPOVST2";
 
 typedef struct {
     char magic[8];
@@ -51,7 +51,8 @@ static size_t pixels_of(PixelRect tile) {
 
 // Over the tile's number and its colours.
 static uint64_t check_of(int tile, const Color *colors, size_t count) {
-    return hash_bytes(hash_bytes(HASH_START, &tile, sizeof tile), colors, count * sizeof *colors);
+    return hash_words(hash_bytes(HASH_START, &tile, sizeof tile), colors,
+                      count * (sizeof *colors / sizeof(uint32_t)));
 }
 
 static Header header_of(const ResumeJob *job) {

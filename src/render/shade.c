@@ -30,7 +30,7 @@ static double opacity(const Shading *shading, Color c) {
     return 1.0 - (c.filter * m + c.transmit);
 }
 
-static Rgb layer_light(Tracer *tracer, const LitLayer *layer) {
+static inline Rgb layer_light(Tracer *tracer, const LitLayer *layer) {
     const Finish *finish = layer->finish;
     Rgb ambient = rgb_mul(rgb_mul(layer->color, finish->ambient),
                           tracer->shading->scene->settings.ambient_light);
@@ -82,17 +82,17 @@ static void shade_layer(Tracer *tracer, const Surface *surface, const Layer *lay
     layers->translucency = grey < 1.0 ? grey : 1.0;
 }
 
-static Layers shade_layers(Tracer *tracer, const Surface *surface, const Texture *texture, Vec3 p) {
+static void shade_layers(Tracer *tracer, const Surface *surface, const Texture *texture, Vec3 p,
+                         Layers *layers) {
     double bailout = tracer->shading->scene->settings.adc_bailout;
-    Layers layers = {.through = {1.0f, 1.0f, 1.0f}, .translucency = 1.0};
-    layers.first = layers.end = tracer->reflection_top;
+    *layers = (Layers){.through = {1.0f, 1.0f, 1.0f}, .translucency = 1.0};
+    layers->first = layers->end = tracer->reflection_top;
     // Rays that a texture before in the same map has sent on had hits of their own to light.
     if (tracer->lights_hit != surface->number)
         lights_reset(tracer);
     tracer->lights_hit = surface->number;
-    for (uint32_t i = 0; i < texture->layer_count && layers.translucency > bailout; i++)
-        shade_layer(tracer, surface, &texture->layers[i], p, &layers);
-    return layers;
+    for (uint32_t i = 0; i < texture->layer_count && layers->translucency > bailout; i++)
+        shade_layer(tracer, surface, &texture->layers[i], p, layers);
 }
 
 // Adds what is seen through the surface, with the top layer's finish; returns whether it was
@@ -141,65 +141,78 @@ static void add_reflected(Tracer *tracer, const Surface *surface, const Layers *
     }
 }
 
-static Color shade_plain(Tracer *tracer, const Surface *surface, const Texture *texture, Vec3 p) {
+static void shade_plain(Tracer *tracer, const Surface *surface, const Texture *texture, Vec3 p,
+                        Color *color) {
     const Shading *shading = tracer->shading;
-    Layers layers = shade_layers(tracer, surface, texture, p);
+    Layers layers;
+    shade_layers(tracer, surface, texture, p, &layers);
     tracer->reflection_top = layers.end;
-    Color color = {layers.color.r, layers.color.g, layers.color.b, 0.0f, 0.0f};
+    *color = (Color){layers.color.r, layers.color.g, layers.color.b, 0.0f, 0.0f};
     bool total = false;
     if (layers.translucency > shading->scene->settings.adc_bailout && shading->quality.refraction)
-        total = add_transmitted(tracer, surface, &texture->layers[0].finish, &layers, &color);
+        total = add_transmitted(tracer, surface, &texture->layers[0].finish, &layers, color);
     if (shading->quality.reflection)
-        add_reflected(tracer, surface, &layers, total, &color);
+        add_reflected(tracer, surface, &layers, total, color);
     tracer->reflection_top = layers.first;
-    return color;
 }
 
 // Textures in a map are shaded to the end, reflections and all, and the colours are mixed.
-static Color shade_texture(Tracer *tracer, const Surface *surface, uint32_t index, Vec3 p) {
+static void shade_texture(Tracer *tracer, const Surface *surface, uint32_t index, Vec3 p,
+                          Color *color) {
     TextureChoice choice =
         texture_choose(tracer->shading->textures, index, surface->spaces, surface->at, p);
-    if (choice.layers != NULL)
-        return shade_plain(tracer, surface, choice.layers, choice.p);
+    if (choice.layers != NULL) {
+        shade_plain(tracer, surface, choice.layers, choice.p, color);
+        return;
+    }
     if (choice.average) {
         TextureMean mean = {0};
-        for (uint32_t i = choice.first; i < choice.second; i++)
-            mean = texture_mean(mean, choice.entries[i].value,
-                                shade_texture(tracer, surface, choice.entries[i].index, choice.p));
-        return texture_mean_color(mean);
+        for (uint32_t i = choice.first; i < choice.second; i++) {
+            Color c;
+            shade_texture(tracer, surface, choice.entries[i].index, choice.p, &c);
+            mean = texture_mean(mean, choice.entries[i].value, c);
+        }
+        *color = texture_mean_color(mean);
+        return;
     }
-    Color first = shade_texture(tracer, surface, choice.entries[choice.first].index, choice.p);
+    shade_texture(tracer, surface, choice.entries[choice.first].index, choice.p, color);
     if (choice.first == choice.second)
-        return first;
-    Color second = shade_texture(tracer, surface, choice.entries[choice.second].index, choice.p);
-    return texture_mix(choice.share, first, second);
+        return;
+    Color second;
+    shade_texture(tracer, surface, choice.entries[choice.second].index, choice.p, &second);
+    *color = texture_mix(choice.share, *color, second);
 }
 
 // Parts of an object side by side in one hit; what weighs next to nothing is left out.
-static Color shade_textures(Tracer *tracer, const Surface *surface, const ShapeTexture *textures,
-                            uint32_t count, Vec3 p) {
-    if (count == 1)
-        return shade_texture(tracer, surface, textures[0].texture, p);
+static void shade_textures(Tracer *tracer, const Surface *surface, const ShapeTexture *textures,
+                           uint32_t count, Vec3 p, Color *color) {
+    if (count == 1) {
+        shade_texture(tracer, surface, textures[0].texture, p, color);
+        return;
+    }
     Color sum = {0};
     for (uint32_t i = 0; i < count; i++) {
         float w = textures[i].weight;
         if (textures[i].texture == NO_INDEX || w < tracer->shading->scene->settings.adc_bailout)
             continue;
-        Color c = shade_texture(tracer, surface, textures[i].texture, p);
+        Color c;
+        shade_texture(tracer, surface, textures[i].texture, p, &c);
         sum.r += w * c.r, sum.g += w * c.g, sum.b += w * c.b;
         sum.filter += w * c.filter, sum.transmit += w * c.transmit;
     }
-    return sum;
+    *color = sum;
 }
 
-Color shade_hit(Tracer *tracer, const Path *path, const WorldHit *hit) {
+void shade_hit(Tracer *tracer, const Path *path, const WorldHit *hit, Color *color) {
     const Shading *shading = tracer->shading;
     const Object *object = &shading->scene->objects[hit->object];
     double cosine = vec_dot(hit->normal, path->ray.dir);
     ShapeTexture textures[SHAPE_MAX_TEXTURES];
     uint32_t count = surface_textures(object, hit, cosine, textures);
-    if (count == 1 && textures[0].texture == NO_INDEX)
-        return (Color){0}; // the built-in texture is black and opaque under any light
+    if (count == 1 && textures[0].texture == NO_INDEX) {
+        *color = (Color){0}; // the built-in texture is black and opaque under any light
+        return;
+    }
     Vec3 normal = cosine > 0.0 ? vec_neg(hit->normal) : hit->normal;
     TextureHit at = {hit->p, path->ray.dir, hit->u, hit->v, normal, shading->quality.quick_color};
     TextureSpaces spaces;
@@ -214,6 +227,6 @@ Color shade_hit(Tracer *tracer, const Path *path, const WorldHit *hit) {
         .at = &at,
         .spaces = &spaces,
     };
-    return shade_textures(tracer, &surface, textures, count,
-                          object->uv_mapping ? vec3(hit->u, hit->v, 0.0) : hit->p);
+    shade_textures(tracer, &surface, textures, count,
+                   object->uv_mapping ? vec3(hit->u, hit->v, 0.0) : hit->p, color);
 }

@@ -143,14 +143,17 @@ typedef struct {
     double opacity; // the layer's own brightness is scaled by this
 } LitLayer;
 
+// Colours go through pointers: what a call has just written number by number and hands back as a
+// whole is read again before it is in the cache, and waits there.
+
 // tracer.c: the colour that comes along path->ray. continued: a ray passed straight through.
-Color trace_path(Tracer *tracer, const Path *path, bool continued);
+void trace_path(Tracer *tracer, const Path *path, bool continued, Color *seen);
 
 // The next number in [0, 1] of POV-Ray's generator for crand.
 double tracer_random(uint32_t *state);
 
 // shade.c
-Color shade_hit(Tracer *tracer, const Path *path, const WorldHit *hit);
+void shade_hit(Tracer *tracer, const Path *path, const WorldHit *hit, Color *color);
 // hit_texture.c
 // The textures of the hit on that side and their weights, 1 to SHAPE_MAX_TEXTURES of them.
 uint32_t surface_textures(const Object *object, const WorldHit *hit, double normal_dot_dir,
@@ -162,10 +165,12 @@ void lights_add(Tracer *tracer, const LitLayer *layer, Rgb *color);
 void lights_reset(Tracer *tracer); // a new hit is being shaded
 
 // What arrives of a light at p when nothing is between: from its location moved by offset.
-LightSample light_sample(const Shading *shading, uint32_t index, Vec3 p, Vec3 offset);
+void light_sample(const Shading *shading, uint32_t index, Vec3 p, Vec3 offset, LightSample *s);
 // Only its direction and distance; false where they are the same point.
 bool light_aim(const Shading *shading, uint32_t index, Vec3 p, Vec3 offset, LightSample *sample);
-bool light_is_black(Rgb color);
+static inline bool light_is_black(const Rgb *c) {
+    return fabsf(c->r) < SHADE_EPS && fabsf(c->g) < SHADE_EPS && fabsf(c->b) < SHADE_EPS;
+}
 // One light, from one direction: what the finish makes of it.
 void light_shine(Tracer *tracer, const LitLayer *layer, bool shadowless, const LightSample *sample,
                  bool backside, Rgb *color);
@@ -191,10 +196,10 @@ void shadow_fog(const Shading *shading, uint32_t light, Ray ray, double distance
                 const InteriorList *inside, Rgb *color);
 
 // finish.c: one light, dir unit and towards it.
-void finish_diffuse(Tracer *tracer, const LitLayer *layer, Vec3 dir, Rgb light, bool backside,
-                    Rgb *color);
-void finish_phong(const LitLayer *layer, Vec3 eye, Vec3 dir, Rgb light, Rgb *color);
-void finish_specular(const LitLayer *layer, Vec3 eye, Vec3 dir, Rgb light, Rgb *color);
+void finish_diffuse(Tracer *tracer, const LitLayer *layer, Vec3 dir, const Rgb *light,
+                    bool backside, Rgb *color);
+void finish_phong(const LitLayer *layer, Vec3 eye, Vec3 dir, const Rgb *light, Rgb *color);
+void finish_specular(const LitLayer *layer, Vec3 eye, Vec3 dir, const Rgb *light, Rgb *color);
 void finish_irid(const Scene *scene, const Finish *finish, Vec3 p, Vec3 eye, Vec3 dir, Vec3 normal,
                  Rgb *color);
 // The empirical Fresnel curve that `metallic` uses: 0 head-on to 1 at grazing cosines.

@@ -171,16 +171,18 @@ double tracer_random(uint32_t *state) {
     return (double)*state / 4294967295.0;
 }
 
-// What lies before the ray's end, as long as the ray is in the open or in hollow bodies.
-static Color see_through_air(Tracer *tracer, const Path *path, double depth, Color color) {
+// Puts before what is seen what lies before the ray's end, as long as the ray is in the open or in
+// hollow bodies.
+static void see_through_air(Tracer *tracer, const Path *path, double depth, Color *color) {
     const Shading *shading = tracer->shading;
     const Scene *scene = shading->scene;
     if ((scene->fog_count == 0 && scene->rainbow_count == 0) || !shading->quality.air ||
         !interior_hollow(path->inside, shading->hollow))
-        return color;
+        return;
     if (scene->rainbow_count > 0)
-        color = rainbow_see(tracer, &path->ray, depth, color);
-    return scene->fog_count > 0 ? fog_see(shading, &path->ray, depth, color) : color;
+        *color = rainbow_see(tracer, &path->ray, depth, *color);
+    if (scene->fog_count > 0)
+        *color = fog_see(shading, &path->ray, depth, *color);
 }
 
 static void tell_hit(const Tracer *tracer, const Path *path, bool continued, const WorldHit *hit,
@@ -193,28 +195,34 @@ static void tell_hit(const Tracer *tracer, const Path *path, bool continued, con
     story_hit(tracer->story, path, hit, &work);
 }
 
-Color trace_path(Tracer *tracer, const Path *path, bool continued) {
+void trace_path(Tracer *tracer, const Path *path, bool continued, Color *seen) {
     const Shading *shading = tracer->shading;
     const Settings *settings = &shading->scene->settings;
     if (path->level >= settings->max_trace_level || path->weight < settings->adc_bailout ||
-        path->nesting > NESTING_LIMIT)
-        return (Color){0};
+        path->nesting > NESTING_LIMIT) {
+        *seen = (Color){0};
+        return;
+    }
     WorldHit hit;
-    PatchStats before = tracer->stats.patch;
+    PatchStats before = {0};
+    if (tracer->story)
+        before = tracer->stats.patch;
     WorldNear near = world_near(shading->world, path->from, path->ray.dir, SHADE_MIN_DEPTH);
     bool met =
         world_nearest(shading->world, &path->ray, near, INFINITY, path->kind, &tracer->stats, &hit);
     if (tracer->story)
         tell_hit(tracer, path, continued, met ? &hit : NULL, &before);
-    if (!met)
-        return see_through_air(tracer, path, SHADE_FAR,
-                               atmosphere_sky(shading, path->ray.dir, path->alpha));
+    if (!met) {
+        *seen = atmosphere_sky(shading, path->ray.dir, path->alpha);
+        see_through_air(tracer, path, SHADE_FAR, seen);
+        return;
+    }
     Path here = *path;
     here.level += continued ? 0 : 1;
-    Color color = see_through_air(tracer, path, hit.t, shade_hit(tracer, &here, &hit));
+    shade_hit(tracer, &here, &hit, seen);
+    see_through_air(tracer, path, hit.t, seen);
     if (tracer->story)
-        story_color(tracer->story, path, color);
-    return color;
+        story_color(tracer->story, path, *seen);
 }
 
 // The bodies around the start of a camera ray; all rays of a perspective camera share them.
@@ -261,7 +269,8 @@ Color tracer_trace(Tracer *tracer, const Ray *ray) {
     if (shading->grainy)
         tracer->crand = tracer->area_jitter = tracer->bow_jitter = grain_seed(ray);
     tracer->stats.primary++;
-    Color color = trace_path(tracer, &path, false);
+    Color color;
+    trace_path(tracer, &path, false, &color);
     color.filter = 0.0f;
     if (!shading->options.alpha)
         color.transmit = 0.0f;

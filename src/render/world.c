@@ -260,20 +260,37 @@ bool world_intersect(const World *world, const Ray *ray, double t_min, double t_
     return world_nearest(world, ray, (WorldNear){t_min, t_min}, t_max, kind, stats, hit);
 }
 
+// All but what is known of a hit, which nobody asks for before there is one. An initializer would
+// clear that too, for every ray.
+static inline void query_start(RayQuery *query, const World *world, const Ray *unit,
+                               const WorldNear *near, double length, double t_max,
+                               RayStats *stats) {
+    query->world = world;
+    query->ray = unit;
+    query->t_min = near->shapes * length;
+    query->patch_min = patch_least(world, near->patches * length);
+    query->stats = stats;
+    query->t = t_max * length;
+    query->rank = 0;
+    query->leaf = NULL;
+    query->prim = NULL;
+}
+
 bool world_nearest(const World *world, const Ray *ray, WorldNear near, double t_max, RayKind kind,
                    RayStats *stats, WorldHit *hit) {
     Ray unit;
-    RayStats unused = {0};
+    RayStats unused;
+    if (!stats) {
+        unused = (RayStats){0};
+        stats = &unused;
+    }
     double length = unit_ray(ray, &unit);
     if (!(length > 0.0))
         return false;
-    RayQuery query = {.world = world,
-                      .ray = &unit,
-                      .t_min = near.shapes * length,
-                      .patch_min = patch_least(world, near.patches * length),
-                      .kind = kind,
-                      .stats = stats ? stats : &unused,
-                      .t = t_max * length};
+    RayQuery query;
+    query_start(&query, world, &unit, &near, length, t_max, stats);
+    query.kind = kind;
+    query.any = false;
     try_prims(&query);
     try_patches(&query);
     if (!query.leaf)
@@ -309,18 +326,18 @@ bool world_occluded(const World *world, const Ray *ray, double t_min, double t_m
 bool world_blocked(const World *world, const Ray *ray, WorldNear near, double t_max,
                    RayStats *stats) {
     Ray unit;
-    RayStats unused = {0};
+    RayStats unused;
+    if (!stats) {
+        unused = (RayStats){0};
+        stats = &unused;
+    }
     double length = unit_ray(ray, &unit);
     if (!(length > 0.0))
         return false;
-    RayQuery query = {.world = world,
-                      .ray = &unit,
-                      .t_min = near.shapes * length,
-                      .patch_min = patch_least(world, near.patches * length),
-                      .kind = RAY_SHADOW,
-                      .any = true,
-                      .stats = stats ? stats : &unused,
-                      .t = t_max * length};
+    RayQuery query;
+    query_start(&query, world, &unit, &near, length, t_max, stats);
+    query.kind = RAY_SHADOW;
+    query.any = true;
     double patch_min = query.patch_min;
     if (world->patches && patchset_occluded(world->patches, &unit, patch_min, query.t, RAY_SHADOW,
                                             &query.stats->patch))

@@ -113,6 +113,12 @@ build/stress: $(STRESS_OBJ) $(filter build/src/base/% build/src/patch/% build/sr
 	@echo '  LD  $@'
 	@$(CC) -fopenmp -o $@ $^ -lm -ldl
 
+# The sweep over all primitives, with the programs' own objects.
+SOLIDS_OBJ = $(patsubst %,build/tests/%.o,test_solids_povray convert_help povray_pictures)
+build/solids: $(SOLIDS_OBJ) $(OBJ)
+	@echo '  LD  $@'
+	@$(CC) -fopenmp -o $@ $^ -lcmocka $(LIBS)
+
 # The programs under the sanitizers, for tests that run them; and the cmocka programs.
 build/test/pov2qi: build/test/converter/main.o $(TEST_OBJ) | build/test/$(IMAGE_LIB)
 	@echo '  LD  $@'
@@ -167,8 +173,8 @@ fuzz: deps
 
 # Every primitive in every variant against POV-Ray, as a table (about five minutes).
 solids: deps
-	@$(MAKE) --no-print-directory -j$$(nproc) build/test/test_solids_povray
-	@QIPOV_SOLIDS=full build/test/test_solids_povray
+	@$(MAKE) --no-print-directory -j$$(nproc) build/solids
+	@QIPOV_SOLIDS=full build/solids
 
 lint:
 	@tests/deps.sh $(LINT_PACKAGES)

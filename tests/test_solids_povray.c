@@ -55,9 +55,29 @@ typedef struct {
 } Primitive;
 
 static const Primitive PRIMITIVES[] = {
+    {"sphere", "sphere{<0.1,-0.1,0.2>,0.9", true, NONE},
+    {"box", "box{<-0.8,-0.7,-0.6>,<0.7,0.9,0.8>", true, NONE},
+    {"box flat", "box{<-0.8,0.1,-0.6>,<0.7,0.1,0.8>", true, NONE},
+    {"cylinder", "cylinder{<-0.3,-0.8,0.1>,<0.2,0.9,-0.2>,0.6", true, NONE},
+    {"cylinder open", "cylinder{<-0.3,-0.8,0.1>,<0.2,0.9,-0.2>,0.6 open", true, NONE},
+    {"cone tip", "cone{<-0.2,-0.8,0.1>,0.8,<0.2,0.9,-0.2>,0", true, NONE},
+    {"cone open", "cone{<-0.2,-0.8,0.1>,0.3,<0.2,0.9,-0.2>,0.7 open", true, NONE},
+    {"torus", "torus{0.7,0.25", true, NONE},
+    {"torus fat", "torus{0.4,0.6 sturm", true, NONE},
+    {"disc", "disc{<0,0.1,0>,<0.2,1,-0.3>,0.9,0.3", true, NONE},
+    {"triangle", "triangle{<-0.9,-0.6,0.2>,<0.8,-0.7,-0.3>,<0.1,0.9,0.1>", false, NONE},
+    {"triangles none",
+     "mesh{triangle{<-0.9,-0.6,0>,<0.8,-0.7,0>,<0.1,0.9,0>} triangle{x,x,x} "
+     "triangle{-x,0,x} triangle{<0,0,-0.1>,<0,0.5,-0.1>,<1e-9,0,-0.1>} inside_vector y",
+     true, NONE},
     {"quadric_ell", "quadric{<1,2,1.5>,<0.3,0,0.2>,<0.1,0,0>,-0.8", true, NONE},
     {"quadric_hyp", "quadric{<1,-1,1>,<0,0,0>,<0,0,0>,-0.1 clipped_by{box{-0.95,0.95}}", true,
      NONE},
+    // Shown down to the height field's box, not as far as its inside goes: 4.5 % of hfclip.pov.
+    {"quadric cut",
+     "quadric{<1,0,1>,<0,0,0>,<0,0,0>,-0.3 clipped_by{height_field{png \"plasma2.png\" translate "
+     "-0.5 scale <2,1.2,2>}}",
+     false, NONE},
     {"cubic",
      "cubic{<1,0.2,0,0.3,1,0,0,0.5,0,-1, 0.7,0,0.2,0,0.1,-0.4, 1,0,-0.5,0.1>"
      " sturm clipped_by{sphere{0,1.2}}",
@@ -94,6 +114,11 @@ static const Primitive PRIMITIVES[] = {
     {"lathe_closed",
      "lathe{linear_spline 6,<0.4,-0.5>,<0.9,-0.5>,<0.9,0.3>,<0.7,0.6>,<0.4,"
      "0.5>,<0.4,-0.5>",
+     true, NONE},
+    {"lathe steep", "lathe{linear_spline 5,<0.3,-0.8>,<0.8,-0.8>,<0.8,0.6>,<0.4,0.6>,<0.4,0.9>",
+     true, NONE},
+    {"lathe steep2",
+     "lathe{quadratic_spline 6,<0.8,-1.2>,<0.8,-0.9>,<0.8,-0.3>,<0.8,0.3>,<0.4,0.6>,<0.4,0.9>",
      true, NONE},
     {"sor", "sor{6,<0.2,-1.3>,<0.5,-1>,<0.9,-0.5>,<0.4,0.1>,<0.6,0.8>,<0.5,1.1>", true, AT_ROTATED},
     {"sor_open",
@@ -327,7 +352,7 @@ static bool wanted(const Bench *bench, size_t row, Variant variant) {
 }
 
 static double compare(Bench *bench, size_t row, Variant variant, size_t job) {
-    static char text[4096];
+    static char text[8192];
     int pixels = bench->width * bench->height;
     const Primitive *primitive = &PRIMITIVES[row];
     bool scaled = variant == SMALL || variant == LARGE;
@@ -349,7 +374,7 @@ static double compare(Bench *bench, size_t row, Variant variant, size_t job) {
 
 // The pictures of one row; returns how many are too far off.
 static int check_row(Bench *bench, size_t row) {
-    static char text[4096];
+    static char text[8192];
     size_t jobs = 0;
     int bad = 0;
     for (Variant v = PLAIN; v < VARIANTS; v++) {

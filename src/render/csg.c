@@ -107,6 +107,10 @@ static void apply_clips(const Maker *maker, CsgNode *node) {
         const CsgNode *clip = &maker->nodes.items[c];
         node->inside = box_common(node->inside, clip->inside);
         node->reach = box_common(node->reach, clip->inside);
+        // POV-Ray keeps the box of a quadric within those of its clips, though the inside of some
+        // goes on out of theirs (below a height field): rays that miss it see nothing.
+        if (node->object->type == OBJECT_QUADRIC && !clip->object->inverse)
+            node->reach = box_common(node->reach, clip->reach);
         node->solid = node->solid && clip->solid;
     }
 }

@@ -52,7 +52,42 @@ static bool inside(const void *data, Vec3 p) {
 static const SolidOps OPS = {
     .near = 1e-6, .far = SHAPE_FARTHEST, .hits = hits, .normal = normal, .inside = inside};
 
+// With negative squares the inside is what lies around the ellipsoid.
+static const SolidOps OPS_AROUND = {.near = 1e-6,
+                                    .far = SHAPE_FARTHEST,
+                                    .hits = hits,
+                                    .normal = normal,
+                                    .inside = inside,
+                                    .deep = true};
+
+// Of ellipsoids and elliptic cylinders along the axes: sum of k (x - c)^2 = rest, all k of one
+// sign. Infinite where there is no such bound.
+static Box box_of(const QuadricShape *q) {
+    Box box = SOLID_INFINITE;
+    double rest = -q->constant, sign = 0.0;
+    if (q->mixed.x != 0.0 || q->mixed.y != 0.0 || q->mixed.z != 0.0)
+        return box;
+    for (int axis = 0; axis < 3; axis++) {
+        double k = vec_get(q->square, axis), linear = vec_get(q->linear, axis);
+        if (k == 0.0 ? linear != 0.0 : k * sign < 0.0)
+            return box;
+        if (k != 0.0)
+            sign = k, rest += 0.25 * linear * linear / k;
+    }
+    double low[3], high[3];
+    for (int axis = 0; axis < 3; axis++) {
+        double k = vec_get(q->square, axis), reach = sqrt(fmax(rest / k, 0.0));
+        double center = -0.5 * vec_get(q->linear, axis) / k;
+        low[axis] = k != 0.0 ? center - reach : -INFINITY;
+        high[axis] = k != 0.0 ? center + reach : INFINITY;
+        if (isnan(low[axis]) || isnan(high[axis]))
+            return box;
+    }
+    return (Box){vec3(low[0], low[1], low[2]), vec3(high[0], high[1], high[2])};
+}
+
 SolidData quadric_prepare(const QuadricShape *quadric, Arena *arena) {
     (void)arena;
-    return (SolidData){&OPS, quadric, SOLID_INFINITE};
+    bool around = quadric->square.x < 0.0 || quadric->square.y < 0.0 || quadric->square.z < 0.0;
+    return (SolidData){around ? &OPS_AROUND : &OPS, quadric, box_of(quadric)};
 }

@@ -177,7 +177,7 @@ bool shape_has_inside(const Shape *shape) {
 
 bool shape_inside_bounded(const Shape *shape) {
     if (shape->kind == SHAPE_SOLID &&
-        (shape->as.solid.ops->deep || !isfinite(shape->as.solid.box.high.x)))
+        (shape->as.solid.ops->deep || !vec_is_finite(shape->as.solid.box.high)))
         return false;
     return shape->kind != SHAPE_PLANE && shape->kind != SHAPE_DISC && !shape->inverse;
 }

@@ -219,15 +219,22 @@ bool solid_inside(const Shape *shape, Vec3 p) {
 
 Box solid_bounds(const Shape *shape) {
     const Box *b = &shape->as.solid.box;
-    if (!isfinite(b->low.x) || !isfinite(b->high.x) || !shape->transform)
+    const Transform *t = shape->transform;
+    if (!t || !(b->low.x <= b->high.x))
         return *b;
-    Box out = box_empty();
-    for (int i = 0; i < 8; i++)
-        out = box_extend(out,
-                         shape_world_point(shape->transform, vec3(i & 1 ? b->high.x : b->low.x,
-                                                                  i & 2 ? b->high.y : b->low.y,
-                                                                  i & 4 ? b->high.z : b->low.z)));
-    return out;
+    double low[3], high[3];
+    for (int to = 0; to < 3; to++) {
+        low[to] = high[to] = t->m[3][to];
+        // An infinite side counts only where the axis has a part of it.
+        for (int from = 0; from < 3; from++) {
+            double k = t->m[from][to];
+            if (k == 0.0)
+                continue;
+            double x = k * vec_get(b->low, from), y = k * vec_get(b->high, from);
+            low[to] += fmin(x, y), high[to] += fmax(x, y);
+        }
+    }
+    return (Box){vec3(low[0], low[1], low[2]), vec3(high[0], high[1], high[2])};
 }
 
 double solid_angle(Vec3 p) {

@@ -28,13 +28,32 @@ static double grey_height(float v, float largest) {
     return clip16((double)(grey * 65535.0F));
 }
 
-static double height_of(const StoredPicture *picture, const float *pixel) {
+// Of PGM the value is kept as it is.
+static double height_of_grey(const StoredPicture *picture, float value, PictureType type) {
+    if (type == PICTURE_PGM || picture->bits > 16)
+        return clip16((double)(value * 65535.0F));
+    return grey_height(value, picture->bits > 8 ? 65535.0F : 255.0F);
+}
+
+// TIFF is read with eight bits, grey by its upper ones, colours rounded.
+static float eight_bits(const StoredPicture *picture, float value) {
+    if (picture->bits <= 8 || picture->bits > 16)
+        return value;
+    unsigned v = (unsigned)lroundf(value * 65535.0F);
+    return (float)(picture->channels < 3 ? v >> 8 : (v + 128) / 257) / 255.0F;
+}
+
+static double height_of(const StoredPicture *picture, const float *pixel, PictureType type) {
+    // Only these keep grey as such; the others have it as red, green and blue.
+    bool keeps_grey = type == PICTURE_PNG || type == PICTURE_PGM || picture->bits > 16;
+    bool grey = picture->channels < 3, bytes = picture->bits <= 8 || type == PICTURE_TIFF;
     float r = value_of(picture, pixel[0]);
-    if (picture->channels < 3)
-        return picture->bits > 16 ? clip16((double)(r * 65535.0F))
-                                  : grey_height(r, picture->bits > 8 ? 65535.0F : 255.0F);
-    float g = value_of(picture, pixel[1]), b = value_of(picture, pixel[2]);
-    if (picture->bits > 8)
+    if (grey && keeps_grey)
+        return height_of_grey(picture, r, type);
+    float g = grey ? r : value_of(picture, pixel[1]), b = grey ? r : value_of(picture, pixel[2]);
+    if (type == PICTURE_TIFF)
+        r = eight_bits(picture, r), g = eight_bits(picture, g);
+    if (!bytes)
         return clip16((double)((0.297F * r + 0.589F * g + 0.114F * b) * 65535.0F));
     return clip16(((double)r * 256.0 + (double)g) * 255.0);
 }
@@ -56,7 +75,7 @@ static void check_size(Converter *cv, const Token *token, double width, double h
 }
 
 // The picture's last row is at z = 0.
-static HeightMap *map_of_values(Converter *cv, const StoredPicture *picture) {
+static HeightMap *map_of_values(Converter *cv, const StoredPicture *picture, PictureType type) {
     int width = picture->width, height = picture->height;
     HeightMap *map = make_map(cv, width, height);
     for (int z = 0; z < height; z++)
@@ -64,12 +83,24 @@ static HeightMap *map_of_values(Converter *cv, const StoredPicture *picture) {
             size_t at = (size_t)(height - 1 - z) * (size_t)width + (size_t)x;
             double *out = &map->heights[(size_t)z * (size_t)width + (size_t)x];
             if (!picture->places)
-                *out = height_of(picture, picture->values + at * (size_t)picture->channels);
+                *out = height_of(picture, picture->values + at * (size_t)picture->channels, type);
             else if (picture->grey_palette)
                 *out =
                     grey_height((float)picture->palette[picture->places[at]][0] / 255.0F, 255.0F);
             else
                 *out = picture->places[at] * 256.0;
+        }
+    return map;
+}
+
+// POT: the right half of the picture has the lower bytes of the left half's numbers.
+static HeightMap *map_of_halves(Converter *cv, const StoredPicture *gif) {
+    int width = gif->width / 2, height = gif->height;
+    HeightMap *map = make_map(cv, width, height);
+    for (int z = 0; z < height; z++)
+        for (int x = 0; x < width; x++) {
+            const uint8_t *row = gif->places + (size_t)(height - 1 - z) * (size_t)gif->width;
+            map->heights[(size_t)z * (size_t)width + (size_t)x] = row[x] * 256.0 + row[x + width];
         }
     return map;
 }
@@ -81,8 +112,9 @@ static const HeightMap *map_of_picture(Converter *cv, const Picture *source, con
     gif.places = gif_read(scratch, source->path, &gif.width, &gif.height);
     if (!gif.places)
         picture = picture_read(scratch, source->path, source->type == PICTURE_PNG);
-    check_size(cv, token, picture->width, picture->height);
-    const HeightMap *map = map_of_values(cv, picture);
+    bool pot = source->type == PICTURE_POT && gif.places;
+    check_size(cv, token, pot ? gif.width / 2 : picture->width, picture->height);
+    const HeightMap *map = pot ? map_of_halves(cv, &gif) : map_of_values(cv, picture, source->type);
     arena_destroy(scratch);
     return map;
 }

@@ -201,6 +201,9 @@ sheet: all
 	@tests/texture_sheet.sh
 examples-pictures: all
 	@tests/examples_pictures.sh
+pages: all
+	@mkdir -p build/pages
+	@PAGES=build/pages tests/examples_pictures.sh patches
 examples-speed: all
 	@tests/examples_speed.sh
 points: build/test/test_points
@@ -258,6 +261,7 @@ stress: deps
 .PHONY: gallery
 .PHONY: install
 .PHONY: lint
+.PHONY: pages
 .PHONY: points
 .PHONY: report
 .PHONY: sheet

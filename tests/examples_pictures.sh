@@ -7,6 +7,8 @@
 #   tests/examples_pictures.sh                      the scenes of tests/examples_pictures.txt
 #   tests/examples_pictures.sh FOLDER|SCENE...      those below the examples: lights camera/lens.pov;
 #                                                   corpus/... lies in ../shared and may be missing
+#   PAGES=FOLDER tests/examples_pictures.sh patches  those with patches, with a page of qicompare each,
+#                                                   --method qi beside POV-Ray
 # POV-Ray's pictures are kept in build/examples-pictures. Exit status 1 if a scene of which all is
 # modelled differs in more than LIMIT percent (0.5), without grain.
 set -u
@@ -19,8 +21,10 @@ program=${QIRENDER:-$PWD/build/qirender}
 kept=$PWD/build/examples-pictures
 mkdir -p "$kept"
 if [ $# -eq 0 ]; then
-    set -- textures/patterns textures/pigments textures/normals textures/finishes textures lights \
-        camera advanced/cliche/cliche.pov
+    set -- textures/patterns textures/pigments textures/normals textures/finishes textures lights camera patches
+fi
+if [ "${*: -1}" = patches ]; then
+    set -- "${@:1:$#-1}" advanced/cliche/cliche.pov
     for name in gamesprites/GSprites_{Hills,Floors,Terrain}_demo easychair/easychair \
         postit/postit eaglemode/Splitter eaglemode/SplitterPressed fmunoz/FMunoz_demo \
         fmunoz/fruit_only; do
@@ -28,10 +32,23 @@ if [ $# -eq 0 ]; then
     done
 fi
 
-# Where the scene of that name lies.
+# Where the scene of that name lies. Of the corpus a copy, since a link in it was copied as the name of
+# the file that it leads to.
 folder_of() {
     case $1 in
-    corpus/*) dirname "$corpus/${1#corpus/}" ;;
+    corpus/*)
+        local from to
+        from=$corpus/$(dirname "${1#corpus/}") to=$kept/$(dirname "$1")
+        if [ ! -d "$to" ]; then
+            mkdir -p "$to" && cp -L "$from"/* "$to"
+            for link in "$to"/*.inc; do
+                local name
+                name=$(head -c 200 "$link" | tr -d '\0')
+                [ "$name" != "" ] && [ -f "$to/$name" ] && cp "$to/$name" "$link"
+            done
+        fi
+        echo "$to"
+        ;;
     *) dirname "$examples/$1" ;;
     esac
 }
@@ -45,15 +62,22 @@ scenes() {
     done
 }
 
-# The scene's file without grain, beside POV-Ray's picture.
+# without_grain FOLDER FILE STEM: a copy of both without grain; where it is.
 without_grain() {
-    sed -E 's/\bcrand[[:space:]]+[-+0-9.eE]+/crand 0/g; s/\bjitter\b//g' "$1"
+    local to=$kept/plain/$3
+    mkdir -p "$to"
+    for source in "$1"/*.inc "$1/$2"; do
+        [ -f "$source" ] &&
+            sed -E 's/\bcrand[[:space:]]+[-+0-9.eE]+/crand 0/g; s/\bjitter\b//g' "$source" >"$to/${source##*/}"
+    done
+    echo "$to"
 }
 
-# compare FOLDER FILE STEM: the share of pixels, or why there is none.
+# compare FOLDER FILE STEM [FOLDER]: the share of pixels, or why there is none. The second folder holds
+# what is not in the first.
 compare() {
     local folder=$1 file=$2 stem=$3
-    local switches="+L$folder +L$includes +L$kept +W320 +H240 -A -D -P"
+    local switches="+L$folder ${4:++L$4} +L$includes +L$kept +W320 +H240 -A -D -P"
     if [ ! -f "$kept/$stem-povray.png" ]; then
         # shellcheck disable=SC2086
         (cd "$folder" && timeout 200 povray "+I$file" "+O$kept/$stem-povray.png" $switches +WT1) \
@@ -72,18 +96,25 @@ compare() {
 [ -f "$kept/sign.png" ] || povray "+I$examples/advanced/cliche/sign.pov" "+O$kept/sign.png" "+L$includes" \
     +W800 +H800 -A -D >"$kept/sign.log" 2>&1 </dev/null
 
+# A page that shows where --method qi and POV-Ray differ, and why.
+page() {
+    build/qicompare "$1/$2" +W320 +H240 -A "+L$1" "+L$includes" "+L$kept" -o "$PAGES/${2%.pov}" --fail 1 2>&1 |
+        grep -E 'off by more|worst places'
+}
+
 bad=0 good=0 part=0
 while read -r scene; do
     folder=$(folder_of "$scene") file=$(basename "$scene") stem=${scene//\//__}
     read -r share gap <<<"$(compare "$folder" "$file" "$stem")"
     judged=$share
-    if grep -qE '\b(jitter|crand)\b' "$folder/$file" && [ "$share" != - ] && [ "$share" != 0 ]; then
-        without_grain "$folder/$file" >"$kept/$stem-plain.pov"
-        read -r judged _ <<<"$(compare "$folder" "$kept/$stem-plain.pov" "$stem-plain")"
+    if [ -z "$gap" ] && awk -v share="$share" -v limit="$limit" 'BEGIN { exit !(share > limit) }' &&
+        cat "$folder/$file" "$folder"/*.inc 2>/dev/null | grep -qE '\b(jitter|crand)\b'; then
+        read -r judged _ <<<"$(compare "$(without_grain "$folder" "$file" "$stem")" "$file" "$stem-plain" "$folder")"
         printf '%-44s %8s, without grain %s %s\n' "$scene" "$share" "$judged" "$gap"
     else
         printf '%-44s %8s %s\n' "$scene" "$share" "$gap"
     fi
+    [ -n "${PAGES:-}" ] && page "$folder" "$file"
     if [ "$judged" = - ] || [ -n "$gap" ]; then
         part=$((part + 1))
     elif awk -v share="$judged" -v limit="$limit" 'BEGIN { exit !(share > limit) }'; then

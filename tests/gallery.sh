@@ -23,3 +23,4 @@ crop() {
 }
 crop "$corpus/postit/postit.pov" postit 150 140
 crop "$corpus/eaglemode/Splitter.pov" eagle 40 5
+crop "$corpus/easychair/easychair.pov" chair 155 60

@@ -7,6 +7,7 @@
 // is thin, whatever the directions of the axes.
 #include "patch/piece.h"
 
+#include "base/lanes.h"
 #include "patch/quasi.h"
 
 #include <float.h>
@@ -73,11 +74,68 @@ static inline Span span_join(Span a, double x) {
     return (Span){x < a.low ? x : a.low, x > a.high ? x : a.high};
 }
 
+// Two numbers' lanes, joined to a span.
+typedef struct {
+    Lanes2 low, high;
+} Span2;
+
+static inline Span2 span2_join(Span2 a, Lanes2 x) {
+    return (Span2){lanes2_min(x, a.low), lanes2_max(x, a.high)};
+}
+
+static inline Span span2_both(Span2 a) {
+    return (Span){a.low[0] < a.low[1] ? a.low[0] : a.low[1], larger(a.high[0], a.high[1])};
+}
+
+// tight_span() of a cubic one, a row as its two halves: the same sums, two at a time.
+static Span tight_cubic(const double *c, int along) {
+    Lanes2 low[4], high[4], net_low[4], net_high[4];
+    for (int i = 0; i < 4; i++) {
+        low[i] = net_low[i] = lanes2_load(c + 4 * i);
+        high[i] = net_high[i] = lanes2_load(c + 4 * i + 2);
+    }
+    Lanes2 most_u = {0.0, 0.0}, most_v = most_u;
+    for (int i = 1; i < 3; i++) {
+        Lanes2 s = (low[i + 1] - low[i]) - (low[i] - low[i - 1]);
+        Lanes2 t = (high[i + 1] - high[i]) - (high[i] - high[i - 1]);
+        most_u = lanes2_max(lanes2_max(most_u, lanes2_abs(s)), lanes2_abs(t));
+        net_low[i] += 0.25 * s;
+        net_high[i] += 0.25 * t;
+    }
+    Span2 hull = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}}, net = hull;
+    for (int i = 0; i < 4; i++) {
+        // The outer two numbers of the row, and the inner two.
+        Lanes2 outer = {low[i][0], high[i][1]}, inner = {low[i][1], high[i][0]};
+        most_v = lanes2_max(most_v, lanes2_abs((high[i] - inner) - (inner - low[i])));
+        Lanes2 net_outer = {net_low[i][0], net_high[i][1]};
+        Lanes2 net_inner = {net_low[i][1], net_high[i][0]};
+        net_inner += 0.25 * ((net_high[i] - net_inner) - (net_inner - net_low[i]));
+        if (along >= 0) {
+            double a = 2.0 * i / 3 - 1.0;
+            Lanes2 at_outer = {-1.0, 1.0}, at_inner = {2.0 / 3 - 1.0, 4.0 / 3 - 1.0};
+            if (along == 0)
+                at_outer = at_inner = (Lanes2){a, a};
+            outer = at_outer - outer;
+            inner = at_inner - inner;
+            net_outer = at_outer - net_outer;
+            net_inner = at_inner - net_inner;
+        }
+        hull = span2_join(span2_join(hull, outer), inner);
+        net = span2_join(span2_join(net, net_outer), net_inner);
+    }
+    Span h = span2_both(hull), n = span2_both(net);
+    double z = quasi_z_infinity(3);
+    double e = z * larger(most_u[0], most_u[1]) + z * larger(most_v[0], most_v[1]);
+    return (Span){larger(h.low, n.low - e), -larger(-h.high, -n.high - e)};
+}
+
 // Bounds of a - c, for a rising from -1 to 1 along u (along = 0) or v (1), or of c itself (-1): the
 // hull's and the QI net's, whichever is less. The net of a linear function is that function, and
 // its second differences are 0.
 static Span tight_span(const Coordinate *coordinate, int du, int dv, int along) {
     const double *c = coordinate->c;
+    if (du == 3 && dv == 3)
+        return tight_cubic(c, along);
     int row = dv + 1;
     Span hull = {INFINITY, -INFINITY}, net = hull;
     double most_u = 0.0, most_v = 0.0;
@@ -179,36 +237,72 @@ static void middle_of(const Bezier *s, Vec3 out[3]) {
     }
 }
 
-// The piece in the directions of the axes, about `from`.
-static void to_local(const Bezier *part, const Vec3 axes[3], Vec3 from, Coordinate local[3]) {
-    for (int k = 0; k < bezier_count(part); k++) {
-        Vec3 d = vec_sub(part->p[k], from);
-        for (int axis = 0; axis < 3; axis++)
-            local[axis].c[k] = vec_dot(axes[axis], d);
-    }
+// The piece in the direction of an axis, about `from`.
+static void to_local(const Bezier *part, Vec3 axis, Vec3 from, Coordinate *local) {
+    for (int k = 0; k < bezier_count(part); k++)
+        local->c[k] = vec_dot(axis, vec_sub(part->p[k], from));
 }
 
-void frame_measure(const Bezier *part, double error, PieceFrame *frame) {
-    Vec3 at[3], axes[3];
+// Returns whether they are regular. *wide: rounding in space: the points' own, 2^-52 of their
+// distance to the patch's center (error is more than that), and a few ulps of the piece's size.
+static bool axes_of(const Bezier *part, double error, Vec3 *from, Vec3 axes[3], double *wide) {
+    Vec3 at[3];
     middle_of(part, at);
-    frame->regular = dual_axes(vec_scale(at[1], 0.5), vec_scale(at[2], 0.5), axes);
-    if (!frame->regular) {
+    bool regular = dual_axes(vec_scale(at[1], 0.5), vec_scale(at[2], 0.5), axes);
+    if (!regular) {
         int last = bezier_count(part) - 1;
         any_axes(vec_sub(part->p[last], part->p[0]),
                  vec_sub(part->p[last - part->dv], part->p[part->dv]), axes);
     }
-    // Rounding: the points' own, 2^-52 of their distance to the patch's center (error is more than
-    // that), and a few ulps of the piece's size.
-    Coordinate local[3];
-    to_local(part, axes, at[0], local);
     double reach = 0.0;
     for (int k = 0; k < bezier_count(part); k++)
         reach = larger(reach, length1(vec_sub(part->p[k], at[0])));
-    double wide = 4.0 * error + 0x1p-48 * reach;
+    *from = at[0];
+    *wide = 4.0 * error + 0x1p-48 * reach;
+    return regular;
+}
+
+// What is left of a when the box's x (or y) is taken away: a bound, and its middle.
+static double rest_of(const Bezier *part, const Coordinate *local, double slack, int along,
+                      double *shift) {
+    Span rest = tight_span(local, part->du, part->dv, along);
+    *shift = 0.5 * (rest.low + rest.high);
+    // Rounding: of the points, and of a few sums of numbers about 1.
+    return (0.5 * (rest.high - rest.low) + slack) * (1.0 + 0x1p-20) + 0x1p-20 * fabs(*shift) +
+           0x1p-45;
+}
+
+void frame_weigh(const Bezier *part, double error, FrameWeight *weight) {
+    weight->part = part;
+    weight->regular = axes_of(part, error, &weight->from, weight->axes, &weight->wide);
+    Coordinate local;
+    to_local(part, weight->axes[2], weight->from, &local);
+    double slack = length1(weight->axes[2]) * weight->wide;
+    Span span = tight_span(&local, part->du, part->dv, -1);
+    double low = span.low - slack, high = span.high + slack;
+    weight->half = larger(0.5 * (high - low), FRAME_LEAST);
+}
+
+double frame_unevenness(const FrameWeight *weight) {
+    double rest[2], shift;
+    for (int k = 0; k < 2; k++) {
+        Coordinate local;
+        to_local(weight->part, weight->axes[k], weight->from, &local);
+        rest[k] = rest_of(weight->part, &local, length1(weight->axes[k]) * weight->wide, k, &shift);
+    }
+    return larger(rest[0], rest[1]);
+}
+
+void frame_measure(const Bezier *part, double error, PieceFrame *frame) {
+    Vec3 from, axes[3];
+    double wide;
+    frame->regular = axes_of(part, error, &from, axes, &wide);
+    Coordinate local[3];
     Vec3 slack = vec3(length1(axes[0]) * wide, length1(axes[1]) * wide, length1(axes[2]) * wide);
 
     double middle[3];
     for (int k = 0; k < 3; k++) {
+        to_local(part, axes[k], from, &local[k]);
         Span span = tight_span(&local[k], part->du, part->dv, -1);
         double low = span.low - vec_get(slack, k), high = span.high + vec_get(slack, k);
         double half = larger(0.5 * (high - low), FRAME_LEAST);
@@ -218,7 +312,7 @@ void frame_measure(const Bezier *part, double error, PieceFrame *frame) {
         frame->row[k][0] = row.x;
         frame->row[k][1] = row.y;
         frame->row[k][2] = row.z;
-        frame->shift[k] = -vec_dot(row, at[0]) - middle[k] / half;
+        frame->shift[k] = -vec_dot(row, from) - middle[k] / half;
     }
     for (int k = 0; k < 2; k++) {
         frame->steep[k] = frame->rest[k] = INFINITY;
@@ -230,12 +324,9 @@ void frame_measure(const Bezier *part, double error, PieceFrame *frame) {
     for (int k = 0; k < 2; k++) {
         frame->steep[k] *= frame->half[k] / frame->half[2];
         // a = half x + middle + the rest's middle, with the rest of a less x.
-        Span rest = tight_span(&local[k], part->du, part->dv, k);
-        double shift = 0.5 * (rest.low + rest.high);
+        double shift;
+        frame->rest[k] = rest_of(part, &local[k], vec_get(slack, k), k, &shift);
         frame->rest_shift[k] = shift + middle[k];
-        // Rounding: of the points, and of a few sums of numbers about 1.
-        frame->rest[k] = (0.5 * (rest.high - rest.low) + vec_get(slack, k)) * (1.0 + 0x1p-20) +
-                         0x1p-20 * fabs(shift) + 0x1p-45;
     }
 }
 

@@ -291,18 +291,21 @@ static void halve(const Bezier *s, bool across_u, Bezier *low, Bezier *high) {
     }
 }
 
-// How much thicker than its share, or less even, a piece is: at most 1 is good enough.
-static double judge(const Cutter *k, const Bezier *s) {
-    PieceFrame frame;
-    frame_measure(s, k->rounding, &frame);
+// How much thicker than its share, or less even, a piece is: at most 1 is good enough. Where the
+// piece is cut anyway (whole = false) the larger of two numbers above 1 need not be known.
+static double judge(const Cutter *k, const Bezier *s, bool whole) {
+    FrameWeight weight;
+    frame_weigh(s, k->rounding, &weight);
     // Size is not taken below a sixteenth of the patch's: near a collapsed edge pieces stay wide
     // for their length however often they are cut.
     double size = larger(larger(mean_side(s, true), mean_side(s, false)), k->size / 16.0);
     // Thickness of rounding alone does not go away. A flat piece may still be bent in its plane.
     double thin = larger(k->share * size, larger(4.0 * k->rounding, FRAME_LEAST));
-    double badness = frame.half[2] / thin;
-    if (frame.regular && size > k->size / 16.0)
-        badness = larger(badness, larger(frame.rest[0], frame.rest[1]) * SHARE / (EVEN * k->share));
+    double badness = weight.half / thin;
+    if (badness > 1.0 && !whole)
+        return badness;
+    if (weight.regular && size > k->size / 16.0)
+        badness = larger(badness, frame_unevenness(&weight) * SHARE / (EVEN * k->share));
     return badness;
 }
 
@@ -314,7 +317,7 @@ static void add_cut(Cutter *k, const Bezier *s, BezierRect rect, double badness)
 }
 
 static void cut_rect(Cutter *k, const Bezier *s, BezierRect rect, int depth) {
-    double badness = judge(k, s);
+    double badness = judge(k, s, false);
     if (badness <= 1.0 || depth == MAX_DEPTH || k->out->cuts.count - k->first > k->limit) {
         add_cut(k, s, rect, badness);
         return;
@@ -333,7 +336,7 @@ static void forget(Cutter *k) { k->out->cuts.count = k->out->boxes.count = k->fi
 // Few pieces: cuts the worst again and again.
 static void cut_worst(Cutter *k) {
     size_t first = k->first;
-    add_cut(k, &k->whole, bezier_whole(), judge(k, &k->whole));
+    add_cut(k, &k->whole, bezier_whole(), judge(k, &k->whole, true));
     while (k->out->cuts.count - first < k->limit) {
         size_t worst = first;
         for (size_t i = first; i < k->out->cuts.count; i++) {
@@ -353,12 +356,12 @@ static void cut_worst(Cutter *k) {
         bool across_u = cut_across_u(&part);
         halve_rect(across_u, &low, &high);
         halve(&part, across_u, &half[0], &half[1]);
-        add_cut(k, &half[0], low, judge(k, &half[0]));
+        add_cut(k, &half[0], low, judge(k, &half[0], true));
         size_t last = k->out->cuts.count - 1;
         k->out->cuts.items[worst] = k->out->cuts.items[last];
         k->out->boxes.items[worst] = k->out->boxes.items[last];
         k->out->cuts.count = k->out->boxes.count = last;
-        add_cut(k, &half[1], high, judge(k, &half[1]));
+        add_cut(k, &half[1], high, judge(k, &half[1], true));
     }
 }
 

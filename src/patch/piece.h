@@ -128,6 +128,16 @@ typedef struct {
 // Of a part of a patch whose control points, about the patch's center, err by `error` in each
 // coordinate.
 void frame_measure(const Bezier *part, double error, PieceFrame *frame);
+// What decides whether the part is cut, without the rest of its frame: half[2], and what is asked
+// afterwards, the larger rest. part must stay.
+typedef struct {
+    const Bezier *part;
+    Vec3 from, axes[3];
+    double wide, half;
+    bool regular;
+} FrameWeight;
+void frame_weigh(const Bezier *part, double error, FrameWeight *weight);
+double frame_unevenness(const FrameWeight *weight); // of a regular one
 // A box around the part.
 Box frame_box(const Bezier *part, double error);
 // Puts a frame into a lane, and what belongs to it into the piece. reach: no point of the block's

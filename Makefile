@@ -214,6 +214,16 @@ test-examples: deps
 	@$(MAKE) --no-print-directory -j$$(nproc) build/pov2qi
 	@tests/examples.sh
 
+# Thousands of small wrong programs: is the same refused as by POV-Ray? MUTATIONS="FIRST COUNT".
+MUTATIONS ?= 1 3000
+build/mutate: build/tests/programs/mutate.o
+	@echo '  LD  $@'
+	@$(CC) -o $@ $^
+test-mutations: deps
+	@$(MAKE) --no-print-directory -j$$(nproc) build/pov2qi build/mutate
+	@tests/mutations.sh --grammar
+	@tests/mutations.sh $(MUTATIONS)
+
 # PREFIX is where it will run, DESTDIR where it is put for now (packages).
 PREFIX ?= /usr/local
 INTO = $(DESTDIR)$(PREFIX)
@@ -269,5 +279,6 @@ stress: deps
 .PHONY: stress
 .PHONY: test
 .PHONY: test-examples
+.PHONY: test-mutations
 .PHONY: test-povray
 -include $(shell find build -name '*.d' 2>/dev/null)

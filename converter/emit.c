@@ -439,7 +439,9 @@ static void emit_settings(Emitter *e) {
 
 static void emit_camera(Emitter *e) {
     const Nodes *nodes = e->cv->nodes;
-    const CameraNode *camera = nodes->camera ? nodes->camera : &nodes->default_camera;
+    const CameraNode *camera = e->cv->options->clockless ? nodes->first_camera : nodes->camera;
+    if (!camera)
+        camera = &nodes->default_camera;
     emit_gaps(e, camera->gaps);
     e->scene->camera = camera->camera;
     e->scene->camera.has_normal = camera->normal != NULL;

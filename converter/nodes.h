@@ -344,7 +344,8 @@ typedef struct RootNode {
 struct Nodes {
     const TextureNode *default_texture;
     CameraNode default_camera;
-    CameraNode *camera; // NULL: none yet
+    CameraNode *camera;       // the last one; NULL: none yet
+    CameraNode *first_camera; // the one that is meant with RenderOptions.clockless
     RootNode *first, *last;
     uint64_t object_count; // all copies counted
     const SkySphereNode *sky_sphere;

@@ -181,12 +181,14 @@ static void add_root(Converter *cv, ObjectNode *object) {
 }
 
 static void parse_scene_camera(Converter *cv, const Token *token) {
-    bool again = cv->nodes->camera && cv->version >= 350;
+    bool again = cv->nodes->camera && cv->version >= 350 && !cv->options->clockless;
     if (again) {
         Loc loc = token_loc(cv, token);
         warn_at(&loc, "there was a camera before: this one replaces it");
     }
     cv->nodes->camera = parse_camera_block(cv);
+    if (!cv->nodes->first_camera)
+        cv->nodes->first_camera = cv->nodes->camera;
 }
 
 static void parse_background(Converter *cv) {

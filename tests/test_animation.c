@@ -246,6 +246,34 @@ static void allobjects(void **state) {
     assert_int_equal(shell(arena_printf(arena, "rm -r %s", folder)), 0);
 }
 
+// Of two cameras the first one is meant; before version 3.5 as it was before the second changed it.
+static void clockless(void **state) {
+    Arena *arena = *state;
+    static const char *const scenes[] = {
+        "#version 3.7; global_settings { assumed_gamma 1 }\n"
+        "camera { location -5*z look_at 0 } camera { location 5*y look_at 0 }\n",
+        "#version 3.1; camera { location -5*z look_at 0 } camera { location 5*y }\n",
+        "#version 3.7; global_settings { assumed_gamma 1 } camera { location 5*y look_at 0 }\n"};
+    if (!reference_available() || access("build/test/qirender", X_OK) != 0) {
+        print_message("skipped: povray or qirender is missing\n");
+        skip();
+    }
+    for (size_t i = 0; i < sizeof scenes / sizeof *scenes; i++) {
+        const char *text = arena_printf(
+            arena, "%s box { -1, 1 pigment { gradient z } finish { ambient 1 } }", scenes[i]);
+        Reference *theirs = reference_begin(arena, text, "+W16 +H12 Clockless_Animation=on");
+        FILE *out = fopen("build/test/clockless.pov", "w");
+        assert_true(out && fputs(text, out) >= 0 && fclose(out) == 0);
+        assert_int_equal(shell("build/test/qirender build/test/clockless.pov +W16 +H12 +KLA -GA"),
+                         0);
+        char where[160];
+        Image *ours = image_read(arena, "build/test/clockless.png");
+        size_t different = reference_mismatches(reference_end(theirs), ours, where, sizeof where);
+        if (different)
+            fail_msg("scene %zu: %zu values differ, first %s", i, different, where);
+    }
+}
+
 static int create(void **state) {
     *state = arena_create();
     return 0;
@@ -260,7 +288,8 @@ static int destroy(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        TEST(frames), TEST(single_pictures), TEST(names), TEST(equal_to_povray), TEST(allobjects),
+        TEST(frames),          TEST(single_pictures), TEST(names),
+        TEST(equal_to_povray), TEST(allobjects),      TEST(clockless),
     };
     return cmocka_run_group_tests_name("animation", tests, NULL, NULL);
 }

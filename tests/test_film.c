@@ -63,17 +63,24 @@ static const char *boxes(Arena *arena, const char *header, const Color *colors) 
     return text;
 }
 
-static Image *develop(Arena *arena, const Film *film, const Color *colors) {
+static Image *develop(Arena *arena, const Film *film, DitherMethod method, const Color *colors) {
     Image *image = ARENA_NEW(arena, Image);
     *image = (Image){.width = SIDE, .height = SIDE, .channels = film_channels(film)};
     image->pixels = ARENA_ARRAY(arena, float, (size_t)COUNT *(size_t)image->channels);
-    for (int i = 0; i < COUNT; i++)
-        film_develop(film, colors[i], image->pixels + i * image->channels);
+    Dither *dither = dither_create(method, SIDE, arena);
+    for (int i = 0; i < COUNT; i++) {
+        float *values = image->pixels + i * image->channels;
+        if (dither)
+            film_develop_dithered(film, dither, i % SIDE, i / SIDE, colors[i], values);
+        else
+            film_develop(film, colors[i], values);
+    }
     return image;
 }
 
 typedef struct {
     const char *header, *switches;
+    DitherMethod dither;
     Settings settings;
     int bits;
     bool grayscale, alpha;
@@ -91,7 +98,7 @@ static Image *our_picture(Arena *arena, const Case *c) {
     }
     Film film =
         film_create(&c->settings, IMAGE_PNG, c->bits, c->grayscale, c->alpha, c->file_gamma);
-    Image *ours = develop(arena, &film, colors);
+    Image *ours = develop(arena, &film, c->dither, colors);
     // Odd numbers of bits come back from the file with their upper bits repeated below.
     if (c->bits != 8 && c->bits != 16) {
         int stored = c->bits > 8 ? 16 : 8, count = COUNT * ours->channels;
@@ -142,17 +149,18 @@ static void compare_all(const Case *cases, size_t count) {
 static void curves_at_16_bits(void **state) {
     (void)state;
     const Case cases[] = {
-        {LINEAR, "+FN16", POWER(1), 16, false, false, 0},
-        {LINEAR, "+FN16 File_Gamma=1.0", POWER(1), 16, false, false, 1.0},
-        {LINEAR, "+FN16 File_Gamma=2.2", POWER(1), 16, false, false, 2.2},
-        {"#version 3.7; global_settings { assumed_gamma 2.2 }", "+FN16", POWER(2.2f), 16, false,
-         false, 0},
-        {"#version 3.7; global_settings { assumed_gamma 1.8 }", "+FN16 File_Gamma=2.4", POWER(1.8f),
-         16, false, false, 2.4},
-        {"#version 3.7; global_settings { assumed_gamma 2.2 }", "+FN16 File_Gamma=1.0", POWER(2.2f),
-         16, false, false, 1.0},
+        {LINEAR, "+FN16", DITHER_NONE, POWER(1), 16, false, false, 0},
+        {LINEAR, "+FN16 File_Gamma=1.0", DITHER_NONE, POWER(1), 16, false, false, 1.0},
+        {LINEAR, "+FN16 File_Gamma=2.2", DITHER_NONE, POWER(1), 16, false, false, 2.2},
+        {"#version 3.7; global_settings { assumed_gamma 2.2 }", "+FN16", DITHER_NONE, POWER(2.2f),
+         16, false, false, 0},
+        {"#version 3.7; global_settings { assumed_gamma 1.8 }", "+FN16 File_Gamma=2.4", DITHER_NONE,
+         POWER(1.8f), 16, false, false, 2.4},
+        {"#version 3.7; global_settings { assumed_gamma 2.2 }", "+FN16 File_Gamma=1.0", DITHER_NONE,
+         POWER(2.2f), 16, false, false, 1.0},
         {"#version 3.7; global_settings { assumed_gamma srgb }",
          "+FN16 File_Gamma=1.8",
+         DITHER_NONE,
          {.version = 370, .gamma_mode = GAMMA_SRGB},
          16,
          false,
@@ -160,12 +168,20 @@ static void curves_at_16_bits(void **state) {
          1.8},
         {"#version 3.7; global_settings { assumed_gamma srgb }",
          "+FN16",
+         DITHER_NONE,
          {.version = 370, .gamma_mode = GAMMA_SRGB},
          16,
          false,
          false,
          0},
-        {"#version 3.6;", "+FN16", {.version = 360, .gamma_mode = GAMMA_NONE}, 16, false, false, 0},
+        {"#version 3.6;",
+         "+FN16",
+         DITHER_NONE,
+         {.version = 360, .gamma_mode = GAMMA_NONE},
+         16,
+         false,
+         false,
+         0},
     };
     COMPARE_ALL(cases);
 }
@@ -173,9 +189,9 @@ static void curves_at_16_bits(void **state) {
 static void numbers_of_bits(void **state) {
     (void)state;
     const Case cases[] = {
-        {LINEAR, "+FN8", POWER(1), 8, false, false, 0},
-        {LINEAR, "+FN5", POWER(1), 5, false, false, 0},
-        {LINEAR, "+FN10", POWER(1), 10, false, false, 0},
+        {LINEAR, "+FN8", DITHER_NONE, POWER(1), 8, false, false, 0},
+        {LINEAR, "+FN5", DITHER_NONE, POWER(1), 5, false, false, 0},
+        {LINEAR, "+FN10", DITHER_NONE, POWER(1), 10, false, false, 0},
     };
     COMPARE_ALL(cases);
 }
@@ -183,10 +199,30 @@ static void numbers_of_bits(void **state) {
 static void alpha_and_grey(void **state) {
     (void)state;
     const Case cases[] = {
-        {LINEAR, "+FN8 +UA", POWER(1), 8, false, true, 0},
-        {LINEAR, "+FN16 +UA", POWER(1), 16, false, true, 0},
-        {LINEAR, "+FNg", POWER(1), 16, true, false, 0},
-        {LINEAR, "+FNg +UA", POWER(1), 16, true, true, 0},
+        {LINEAR, "+FN8 +UA", DITHER_NONE, POWER(1), 8, false, true, 0},
+        {LINEAR, "+FN16 +UA", DITHER_NONE, POWER(1), 16, false, true, 0},
+        {LINEAR, "+FNg", DITHER_NONE, POWER(1), 16, true, false, 0},
+        {LINEAR, "+FNg +UA", DITHER_NONE, POWER(1), 16, true, true, 0},
+    };
+    COMPARE_ALL(cases);
+}
+
+// Each method, with curves both ways, few and many bits, grey and alpha.
+static void dithering(void **state) {
+    (void)state;
+    const Case cases[] = {
+        {LINEAR, "+TH", DITHER_FS, POWER(1), 8, false, false, 0},
+        {LINEAR, "Dither=on Dither_Method=b2", DITHER_B2, POWER(1), 8, false, false, 0},
+        {LINEAR, "+FN5 +THB3", DITHER_B3, POWER(1), 5, false, false, 0},
+        {LINEAR, "+THB4 File_Gamma=1.0", DITHER_B4, POWER(1), 8, false, false, 1.0},
+        {LINEAR, "+THD1 +UA", DITHER_D1, POWER(1), 8, false, true, 0},
+        {LINEAR, "+THD2 +FN5 File_Gamma=1.8", DITHER_D2, POWER(1), 5, false, false, 1.8},
+        {LINEAR, "+THFS +FN16", DITHER_FS, POWER(1), 16, false, false, 0},
+        {LINEAR, "+THFS +FN6 +UA", DITHER_FS, POWER(1), 6, false, true, 0},
+        {LINEAR, "+THD2 +FNg", DITHER_D2, POWER(1), 16, true, false, 0},
+        {"#version 3.7; global_settings { assumed_gamma 1.8 }", "+TH File_Gamma=2.4", DITHER_FS,
+         POWER(1.8f), 8, false, false, 2.4},
+        {LINEAR, "+TH -TH", DITHER_NONE, POWER(1), 8, false, false, 0},
     };
     COMPARE_ALL(cases);
 }
@@ -299,10 +335,10 @@ static void tables_change_nothing(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(curves_at_16_bits),     cmocka_unit_test(numbers_of_bits),
-        cmocka_unit_test(alpha_and_grey),        cmocka_unit_test(known_values),
-        cmocka_unit_test(floats_are_linear),     cmocka_unit_test(odd_colors_are_clipped),
-        cmocka_unit_test(tables_change_nothing),
+        cmocka_unit_test(curves_at_16_bits),      cmocka_unit_test(numbers_of_bits),
+        cmocka_unit_test(alpha_and_grey),         cmocka_unit_test(dithering),
+        cmocka_unit_test(known_values),           cmocka_unit_test(floats_are_linear),
+        cmocka_unit_test(odd_colors_are_clipped), cmocka_unit_test(tables_change_nothing),
     };
     return cmocka_run_group_tests_name("film", tests, NULL, NULL);
 }

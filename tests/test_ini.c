@@ -191,7 +191,7 @@ static void wrong_lines(void **state) {
         {", x\n", 1, 1, "expected"},
         {"Quality=3\nt.ini\n", 2, 1, "nested"},
         {"nosuch.ini\n", 1, 1, "neither"},
-        {"Clockless_Animation=on\n", 1, 21, "not supported"},
+        {"Dither_Method=F\n", 1, 15, "dithering"},
         {"+FX\n", 1, 1, "PNG"},
         {"Antialias=on\n\001\n", 2, 1, ""},
     };

@@ -37,6 +37,17 @@ typedef struct {
     bool warning;
 } OptionRemark;
 
+// ORDER dither_method (dither_codes in table.c)
+typedef enum {
+    DITHER_NONE,
+    DITHER_B2, // patterns of 2 x 2, 3 x 3 and 4 x 4 pixels
+    DITHER_B3,
+    DITHER_B4,
+    DITHER_D1, // what is lost goes to the next pixel of the row
+    DITHER_D2, // ... and to those below
+    DITHER_FS, // Floyd and Steinberg
+} DitherMethod;
+
 // ORDER aov (names in table.c): what --aov writes of the nearest hit of each pixel's middle
 typedef enum {
     AOV_DEPTH,
@@ -86,6 +97,9 @@ typedef struct {
     bool compressed;
     bool alpha;        // +UA
     double file_gamma; // 0: sRGB
+    bool dither;
+    DitherMethod dither_method; // used only with dither
+    bool clockless;             // +KLA: of several cameras the first one is meant
     const char **library_paths;
     size_t library_path_count;
     const char **write_folders; // --allow-write: where #write may make files

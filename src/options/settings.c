@@ -37,7 +37,6 @@ static void write_row(FILE *out, const OptionRow *row, const RenderOptions *opti
     case OPTION_SPECIAL: // write_specials
     case OPTION_HEADING:
     case OPTION_IGNORED:
-    case OPTION_UNSUPPORTED:
         break;
     }
 }
@@ -66,6 +65,8 @@ static void write_specials(FILE *out, const RenderOptions *o) {
         fprintf(out, "Output_File_Type=%c\n", type_letter(o));
     if (o->file_gamma > 0)
         fprintf(out, "File_Gamma=%.17g\n", o->file_gamma);
+    if (o->dither_method != DITHER_NONE)
+        fprintf(out, "Dither_Method=%s\n", option_dither_code(o->dither_method));
     write_flag(out, "Antialias", o->antialias);
     fprintf(out, "Render_Block_Size=%d\n", o->block_size);
     if (o->clock_given)

@@ -257,10 +257,24 @@ static bool apply_display(Parse *parse, const OptionRow *row, bool on, const cha
     return true;
 }
 
+static const char *const dither_codes[] = {"", "B2", "B3", "B4", "D1", "D2", "FS"}; // ORDER
+
+const char *option_dither_code(DitherMethod method) { return dither_codes[method]; }
+
+static bool apply_dither_method(Parse *parse, const OptionRow *row, bool on, const char *value) {
+    (void)row, (void)on;
+    for (int i = DITHER_B2; i <= DITHER_FS; i++)
+        if (strcasecmp(value, dither_codes[i]) == 0) {
+            parse->options->dither_method = (DitherMethod)i;
+            return true;
+        }
+    return complain(parse, "the methods of dithering are B2, B3, B4, D1, D2 and FS");
+}
+
+// +TH, -TH, +THFS: the flag, and perhaps the method.
 static bool apply_dither(Parse *parse, const OptionRow *row, bool on, const char *value) {
-    if (!on || (row->keyword && *value && !option_truth(value)))
-        return true;
-    return complain(parse, "dithering is not supported");
+    parse->options->dither = on;
+    return !*value || apply_dither_method(parse, row, on, value);
 }
 
 static bool apply_method(Parse *parse, const OptionRow *row, bool on, const char *value) {
@@ -405,11 +419,6 @@ static bool apply_limit(Parse *parse, const OptionRow *row, bool on, const char 
         .kind = OPTION_IGNORED, .letters = (switch_letters), .keyword = (ini), .value = (what),    \
         .programs = IN_ALL                                                                         \
     }
-#define UNSUPPORTED(switch_letters, ini)                                                           \
-    {                                                                                              \
-        .kind = OPTION_UNSUPPORTED, .letters = (switch_letters), .keyword = (ini),                 \
-        .programs = IN_ALL                                                                         \
-    }
 
 #define COMMAND(ini)                                                                               \
     {                                                                                              \
@@ -449,6 +458,10 @@ const OptionRow option_rows[] = {
      .help = "where nothing is, the picture is transparent"},
     {OPTION_SPECIAL, NULL, "File_Gamma", NULL, "x", DRAWS, .apply = apply_file_gamma,
      .help = "the gamma of the file: a number, or sRGB (default)"},
+    {OPTION_SPECIAL, "TH", NULL, NULL, "[method]", DRAWS, .apply = apply_dither,
+     .help = "dither the file's values: B2 B3 B4 D1 D2 FS (FS); -TH off"},
+    {OPTION_FLAG, NULL, "Dither", NULL, NULL, DRAWS, FIELD(dither)},
+    {OPTION_SPECIAL, NULL, "Dither_Method", NULL, "name", DRAWS, .apply = apply_dither_method},
     {OPTION_SPECIAL, "L", "Library_Path", NULL, "folder", IN_ALL, .apply = apply_library,
      .help = "where includes are looked for; may be repeated; so is a bare folder/"},
     {OPTION_SPECIAL, NULL, "Declare", NULL, "name=x", IN_ALL, .apply = apply_declare,
@@ -596,10 +609,11 @@ const OptionRow option_rows[] = {
      .help = "render up to this frame; below 1 a share of the frames"},
     {OPTION_INT, "STP", "Frame_Step", NULL, "n", IN_ALL, FIELD(frame_step), CLIP(1, 1e9),
      .help = "render every nth frame (1)"},
+    {OPTION_FLAG, "KLA", "Clockless_Animation", NULL, NULL, IN_ALL, FIELD(clockless),
+     .help = "of several cameras the first one is meant"},
 
     {OPTION_INT, NULL, "Bits_Per_Colour", NULL, "n", DRAWS, FIELD(bits), CLIP(5, 16)},
     {OPTION_SPECIAL, NULL, "Include_Ini", NULL, "name", IN_ALL, .apply = apply_include_ini},
-    {OPTION_SPECIAL, "TH", "Dither", NULL, NULL, IN_ALL, .apply = apply_dither},
     COMMAND("Pre_Scene_Command"),
     COMMAND("Pre_Frame_Command"),
     COMMAND("Post_Frame_Command"),
@@ -647,14 +661,11 @@ const OptionRow option_rows[] = {
     IGNORED(NULL, "Video_Mode", "letter"),
     IGNORED(NULL, "Display_Gamma", "x"),
     IGNORED(NULL, "Compression", "n"),
-    IGNORED(NULL, "Dither_Method", "name"),
     IGNORED(NULL, "Buffer_Output", NULL),
     IGNORED(NULL, "Buffer_Size", "n"),
     IGNORED(NULL, "Create_Histogram", NULL),
     IGNORED(NULL, "Histogram_Name", "name"),
     IGNORED(NULL, "Histogram_Grid_Size", "n"),
     IGNORED(NULL, "Histogram_Type", "letter"),
-
-    UNSUPPORTED("KLA", "Clockless_Animation"),
 };
 const size_t option_row_count = sizeof option_rows / sizeof *option_rows;

@@ -7,14 +7,13 @@
 
 // ORDER option_kind (apply_row in options.c)
 typedef enum {
-    OPTION_HEADING,     // a line of the help
-    OPTION_FLAG,        // bool: +X on, -X off; a word --x without value: on
-    OPTION_INT,         // clipped to low..high
-    OPTION_NUMBER,      // clipped to low..high
-    OPTION_TEXT,        // const char *
-    OPTION_SPECIAL,     // `apply` decides
-    OPTION_IGNORED,     // POV-Ray's; changes no picture of ours
-    OPTION_UNSUPPORTED, // POV-Ray's; would change the picture, and cannot be done here
+    OPTION_HEADING, // a line of the help
+    OPTION_FLAG,    // bool: +X on, -X off; a word --x without value: on
+    OPTION_INT,     // clipped to low..high
+    OPTION_NUMBER,  // clipped to low..high
+    OPTION_TEXT,    // const char *
+    OPTION_SPECIAL, // `apply` decides
+    OPTION_IGNORED, // POV-Ray's; changes no picture of ours
 } OptionKind;
 
 // Programs that take an option.
@@ -81,6 +80,7 @@ bool option_integer(const char *text, int *out); // out of range: the nearest in
 // True for what begins as on, true, yes or 1 do, up to the end of the shorter: "onward", "t" and
 // nothing at all are true as well, as for POV-Ray.
 bool option_truth(const char *text);
+const char *option_dither_code(DitherMethod method); // "FS"
 const char *option_program_name(OptionsProgram program);
 
 #endif

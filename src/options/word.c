@@ -51,10 +51,6 @@ static bool apply_row(Parse *parse, const OptionRow *row, bool on, const char *v
         return *value != '\0';
     case OPTION_SPECIAL:
         return row->apply(parse, row, on, value);
-    case OPTION_UNSUPPORTED:
-        snprintf(parse->why, sizeof parse->why, "POV-Ray's %s is not supported",
-                 row->keyword ? row->keyword : row->letters);
-        return false;
     case OPTION_IGNORED:
         if (!parse->povray_ini)
             option_remark(parse, false, "POV-Ray's %s has no effect here",
@@ -138,7 +134,7 @@ static bool refuse_unknown(const Parse *parse, const char *word, Form form, cons
     for (size_t i = 0; i < option_row_count; i++) {
         const OptionRow *row = &option_rows[i];
         const char *known = row_name(row, form);
-        if (!known || !belongs(parse, row) || row->kind == OPTION_UNSUPPORTED)
+        if (!known || !belongs(parse, row))
             continue;
         size_t d = distance(name, length, known);
         if (d < best || (d == best && !nearest && d < strlen(known))) {
@@ -180,7 +176,7 @@ static bool may_follow(const OptionRow *row, const char *rest) {
         return strchr("+-.0123456789", *rest) != NULL;
     if (row->kind == OPTION_FLAG)
         return false;
-    return row->kind == OPTION_SPECIAL || row->value != NULL || row->kind == OPTION_UNSUPPORTED;
+    return row->kind == OPTION_SPECIAL || row->value != NULL;
 }
 
 // +X..., -X...: the longest letters that fit. Of pov2qi's and qicompare's -o the name may be the

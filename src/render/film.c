@@ -32,10 +32,11 @@ int film_channels(const Film *film) { return (film->grayscale ? 1 : 3) + (film->
 // POV-Ray's luminance as its picture files have it: in float throughout, unlike rgb_grey().
 static float grey_of(Rgb c) { return 0.297f * c.r + 0.589f * c.g + 0.114f * c.b; }
 
+static float clipped(float x) { return x > 0.0f ? (x < 1.0f ? x : 1.0f) : 0.0f; } // NaN: 0
+
 static float quantise(const Film *film, float x) {
     float most = (float)((1 << film->bits) - 1);
-    float clipped = x > 0.0f ? (x < 1.0f ? x : 1.0f) : 0.0f; // NaN: 0
-    return floorf(clipped * most + 0.5f) / most;
+    return floorf(clipped(x) * most + 0.5f) / most;
 }
 
 // ---- table --------------------------------------------------------------------------------------
@@ -113,22 +114,53 @@ static float develop_channel(const Film *film, float x) {
     return (float)k / (float)((1 << film->bits) - 1);
 }
 
-void film_develop(const Film *film, Color color, float *values) {
+// The linear values of a pixel's channels, as they are to be encoded. The last one is its opacity,
+// if the film has it.
+static void separate(const Film *film, Color color, float channel[4]) {
     Rgb c = color_rgb(color);
     int count = film->grayscale ? 1 : 3;
-    float channel[3] = {c.r, c.g, c.b}, grey = grey_of(c);
-    if (film->grayscale)
-        channel[0] = grey;
-
-    float alpha = film->alpha ? 1.0f - color.transmit : 1.0f;
-    if (film->alpha && !film->floats) {
+    float grey = grey_of(c);
+    channel[0] = film->grayscale ? grey : c.r;
+    channel[1] = c.g;
+    channel[2] = c.b;
+    if (!film->alpha)
+        return;
+    float alpha = 1.0f - color.transmit;
+    if (!film->floats) {
         if (grey > alpha)
             alpha = grey < 1.0f ? grey : 1.0f;
         for (int i = 0; i < count; i++)
             channel[i] /= alpha != 0.0f ? alpha : LEAST_ALPHA;
     }
+    channel[count] = alpha;
+}
+
+void film_develop(const Film *film, Color color, float *values) {
+    float channel[4];
+    int count = film->grayscale ? 1 : 3;
+    separate(film, color, channel);
     for (int i = 0; i < count; i++)
         values[i] = develop_channel(film, channel[i]);
     if (film->alpha)
-        values[count] = film->floats ? alpha : quantise(film, alpha);
+        values[count] = film->floats ? channel[count] : quantise(film, channel[count]);
+}
+
+void film_develop_dithered(const Film *film, Dither *dither, int x, int y, Color color,
+                           float *values) {
+    float channel[4], offset[DITHER_CHANNELS], lost[DITHER_CHANNELS] = {0}, steps;
+    int count = film_channels(film), colors = film->grayscale ? 1 : 3;
+    separate(film, color, channel);
+    dither_offsets(dither, x, y, offset, &steps);
+    steps /= (float)((1 << film->bits) - 1);
+    for (int i = 0; i < count; i++) {
+        float wanted = channel[i] + offset[i];
+        if (i < colors) {
+            values[i] = quantise(film, transfer_apply(&film->transfer, wanted) + steps);
+            lost[i] = clipped(wanted) - transfer_undo(&film->transfer, values[i]);
+        } else {
+            values[i] = quantise(film, wanted + steps);
+            lost[i] = clipped(wanted) - values[i];
+        }
+    }
+    dither_lost(dither, x, lost);
 }

@@ -6,6 +6,7 @@
 
 #include "image/image.h"
 #include "model/scene.h"
+#include "render/dither.h"
 #include "render/gamma.h"
 
 typedef struct {
@@ -27,5 +28,9 @@ void film_prepare(Film *film, Arena *arena);
 int film_channels(const Film *film); // 1 to 4
 // One pixel: film_channels() values k / (2^bits - 1), or linear floats.
 void film_develop(const Film *film, Color color, float *values);
+// The same of one pixel of a file of whole numbers with dithering: those of a row from left to
+// right, and the rows in the order of the file.
+void film_develop_dithered(const Film *film, Dither *dither, int x, int y, Color color,
+                           float *values);
 
 #endif

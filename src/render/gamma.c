@@ -69,3 +69,7 @@ static float encode(const Curve *curve, float x) {
 float transfer_apply(const Transfer *transfer, float x) {
     return encode(&transfer->encoded, decode(&transfer->working, x));
 }
+
+float transfer_undo(const Transfer *transfer, float x) {
+    return encode(&transfer->working, decode(&transfer->encoded, x));
+}

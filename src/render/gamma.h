@@ -29,5 +29,7 @@ Curve curve_working(const Settings *settings);
 // Joined to one curve where POV-Ray joins them, so that the bits are its own.
 Transfer transfer_between(Curve working, Curve encoded);
 float transfer_apply(const Transfer *transfer, float x);
+// From an encoded number back to the working space.
+float transfer_undo(const Transfer *transfer, float x);
 
 #endif

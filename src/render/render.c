@@ -194,6 +194,24 @@ static void render_tiles(Job *job, RenderStats *stats) {
     }
 }
 
+// What is lost of one pixel goes to others behind it: one after the other. BMP files begin with the
+// last row.
+static void develop_dithered(const Film *film, const Color *picture, const RenderOptions *o,
+                             float *values) {
+    Arena *scratch = arena_create();
+    DitherMethod method = o->dither_method == DITHER_NONE ? DITHER_FS : o->dither_method;
+    Dither *dither = dither_create(method, o->width, scratch);
+    for (int i = 0; i < o->height; i++) {
+        int y = o->format == IMAGE_BMP ? o->height - 1 - i : i;
+        for (int x = 0; x < o->width; x++) {
+            size_t at = (size_t)y * (size_t)o->width + (size_t)x;
+            film_develop_dithered(film, dither, x, y, picture[at],
+                                  values + at * (size_t)film_channels(film));
+        }
+    }
+    arena_destroy(scratch);
+}
+
 static Image *develop(const Film *film, const Color *picture, const RenderOptions *o,
                       Arena *arena) {
     Image *image = ARENA_NEW(arena, Image);
@@ -205,6 +223,11 @@ static Image *develop(const Film *film, const Color *picture, const RenderOption
                                               : 8};
     size_t channels = (size_t)image->channels, width = (size_t)o->width;
     image->pixels = ARENA_ARRAY(arena, float, width *(size_t)o->height *channels);
+    // JPEG has its own losses, and files of floats are not rounded.
+    if (o->dither && !film->floats && o->format != IMAGE_JPEG) {
+        develop_dithered(film, picture, o, image->pixels);
+        return image;
+    }
 #pragma omp parallel for schedule(static)
     for (int y = 0; y < o->height; y++)
         for (size_t x = 0; x < width; x++) {

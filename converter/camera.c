@@ -101,14 +101,27 @@ static void move_camera_now(Camera *camera, const Move *move) {
 // mesh_camera { F F [F] meshes [smooth] }
 static void parse_mesh_camera(Converter *cv) {
     expect(cv, '{', "mesh_camera");
-    while (starts_expression(cv)) {
+    const Token *token = peek_token(cv);
+    double rays = floor(number_within(cv, "number of rays per pixel", 1, 4e9));
+    double method = floor(number_within(cv, "distribution method", 0, 3));
+    if (starts_expression(cv))
         parse_float(cv);
-        optional_comma(cv);
+    uint32_t meshes = 0;
+    while (next_is(cv, KW_mesh) || next_is(cv, KW_mesh2)) {
+        parse_object(cv);
+        meshes++;
     }
-    while (parse_object(cv))
-        optional_comma(cv);
-    accept(cv, KW_smooth);
+    Loc loc = here(cv);
+    if (accept(cv, KW_smooth) && method != 3)
+        die_at(&loc, "Smooth can only be used with distribution method 3");
     expect(cv, '}', "mesh_camera");
+    loc = token_loc(cv, token);
+    if (meshes == 0)
+        die_at(&loc, "a mesh_camera needs a mesh or a mesh2");
+    if (method >= 2 && rays != 1)
+        die_at(&loc, "Rays per pixel must be 1 for distribution methods 2 and 3");
+    if (method == 0 && rays > meshes)
+        die_at(&loc, "Rays per pixel must be at most the number of meshes for method 0");
 }
 
 static CameraType parse_cylinder_type(Converter *cv, const Reader *reader, const Token *token) {

@@ -60,7 +60,7 @@ static void parse_irid(Converter *cv, Finish *finish) {
         if (accept(cv, KW_thickness))
             finish->irid_thickness = number(cv);
         else if (accept(cv, KW_turbulence))
-            finish->irid_turbulence = number(cv);
+            finish->irid_turbulence = (float)parse_vector(cv).x;
         else
             break;
     }

@@ -149,7 +149,7 @@ void parse_height_field(Converter *cv, ObjectNode *object) {
                                                          : map_of_picture(cv, &source, token);
     for (;;) {
         if (accept(cv, KW_water_level))
-            field->water_level = 65536.0 * parse_float(cv);
+            field->water_level = (cv->version < 200 ? 256.0 : 65536.0) * parse_float(cv);
         else if (accept(cv, KW_smooth))
             field->smooth = true;
         else

@@ -101,6 +101,15 @@ static void parse_scattering(Converter *cv) {
     expect(cv, '}', "scattering");
 }
 
+// samples F [, F]: least and most
+static void parse_samples(Converter *cv) {
+    double least = floor(number_within(cv, "number of samples", 1, 1e9));
+    optional_comma(cv);
+    Loc loc = here(cv);
+    if (starts_expression(cv) && !(floor(parse_float(cv)) >= least))
+        die_at(&loc, "Maximum number of samples per interval smaller than minimum number");
+}
+
 static bool parse_media_item(Converter *cv) {
     Move move;
     switch (peek_token(cv)->code) {
@@ -123,10 +132,7 @@ static bool parse_media_item(Converter *cv) {
         return true;
     case KW_samples:
         next_token(cv);
-        number_within(cv, "number of samples", 1, 1e9);
-        optional_comma(cv);
-        if (starts_expression(cv))
-            parse_float(cv);
+        parse_samples(cv);
         return true;
     case KW_collect:
         next_token(cv);

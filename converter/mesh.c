@@ -12,6 +12,7 @@ typedef struct {
     ARRAY(MeshFace) faces;
     ARRAY(const TextureNode *) textures;
     Vec3 inside;
+    bool visible; // is a triangle there whose points do not lie on a line?
 } MeshReader;
 
 // POV-Ray's limit of what counts as no direction.
@@ -123,11 +124,13 @@ static void parse_face_textures(Converter *cv, MeshReader *r, MeshFace *face) {
 // triangle { V V V ... } | smooth_triangle { V V V V V V ... }
 static void parse_face(Converter *cv, MeshReader *r, bool smooth) {
     MeshFace face = empty_face();
+    Vec3 p[3];
     expect(cv, '{', "triangle");
     for (int i = 0; i < 3; i++) {
         if (i > 0)
             optional_comma(cv);
-        face.p[i] = put_vec3(&r->points, parse_vector(cv));
+        p[i] = parse_vector(cv);
+        face.p[i] = put_vec3(&r->points, p[i]);
         if (!smooth)
             continue;
         optional_comma(cv);
@@ -143,6 +146,8 @@ static void parse_face(Converter *cv, MeshReader *r, bool smooth) {
     parse_face_textures(cv, r, &face);
     expect(cv, '}', "triangle");
     array_push(&r->faces, face);
+    if (vec_length(vec_cross(vec_sub(p[1], p[0]), vec_sub(p[2], p[0]))) != 0.0)
+        r->visible = true;
 }
 
 void parse_mesh(Converter *cv, ObjectNode *object) {
@@ -157,7 +162,7 @@ void parse_mesh(Converter *cv, ObjectNode *object) {
         else
             break;
     }
-    if (!r.faces.count)
+    if (!r.visible)
         die_expected(cv, "'triangle' (No triangles in triangle mesh)");
     keep_mesh(cv, &r, object);
 }

@@ -130,10 +130,10 @@ bool parse_photons_modifier(Converter *cv) {
     return true;
 }
 
-// radiosity { [importance F] }
+// radiosity { { importance F }* }
 void parse_importance_block(Converter *cv) {
     expect(cv, '{', "radiosity");
-    if (accept(cv, KW_importance)) {
+    while (accept(cv, KW_importance)) {
         Loc loc = here(cv);
         double importance = parse_float(cv);
         if (!(importance > 0 && importance <= 1))

@@ -24,6 +24,7 @@ double number_within(Converter *cv, const char *what, double low, double high) {
 
 void nodes_begin(Converter *cv) {
     Nodes *nodes = ARENA_NEW(cv->arena, Nodes);
+    nodes->radiosity.pretrace[0] = 0.08, nodes->radiosity.pretrace[1] = 0.04;
     PatternNode *pigment = ARENA_NEW(cv->arena, PatternNode);
     FinishNode *finish = ARENA_NEW(cv->arena, FinishNode);
     TextureNode *texture = ARENA_NEW(cv->arena, TextureNode);

@@ -103,6 +103,7 @@ typedef struct PatternNode {
     Color color;                       // one colour
     bool has_quick_color;
     Color quick_color;
+    int pavement[3];        // sides, tiles, number of the pattern
     float amount, accuracy; // normal: depth, and how far the pattern is looked at around the point
     bool no_bump_scale;     // normal, texture
     const Loc *block_loc;   // normal: of its block
@@ -119,7 +120,8 @@ void parse_warp(Converter *cv, PatternNode *pattern); // the block behind the ke
 void parse_pattern(Converter *cv, PatternUse use, PatternNode *pattern);
 // pattern_fit.c: dies if the next token is a modifier that this pattern does not take.
 void check_modifier_fits(Converter *cv, const PatternInfo *info);
-void parse_pavement_number(Converter *cv, int keyword); // behind number_of_sides and its kin
+void parse_pavement_number(Converter *cv, PatternNode *pattern, int keyword); // behind the word
+void check_pavement(const PatternNode *pattern); // at its end: is there such a pattern?
 // Reads the arguments that stand right behind the pattern's keyword (and list items).
 void parse_pattern_arguments(Converter *cv, PatternUse use, PatternNode *pattern);
 // The keyword of a map (color_map ...) at the cursor: its kind; false: there is none.
@@ -193,6 +195,12 @@ bool parse_partial_texture(Converter *cv, const TextureNode **texture);
 const TextureNode *texture_layer(Converter *cv, const TextureNode *top, const TextureNode *below,
                                  const Token *token);
 const TextureNode *texture_moved(Converter *cv, const TextureNode *texture, Move *move);
+
+// What the numbers of radiosity{} are checked for. Index 0: start, minimum_reuse.
+typedef struct {
+    double pretrace[2], reuse[2];
+    bool given[2]; // of reuse
+} RadiosityLimits;
 
 // ---- lights, camera, surroundings: light.c, camera.c, atmosphere.c, settings.c
 // --------------------
@@ -343,6 +351,7 @@ typedef struct RootNode {
 
 struct Nodes {
     const TextureNode *default_texture;
+    RadiosityLimits radiosity;
     CameraNode default_camera;
     CameraNode *camera;       // the last one; NULL: none yet
     CameraNode *first_camera; // the one that is meant with RenderOptions.clockless

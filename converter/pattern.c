@@ -210,7 +210,7 @@ static bool parse_shape_modifier(Converter *cv, PatternNode *pattern, int code) 
     case KW_form:
         next_token(cv);
         if (pattern->info->keyword == KW_pavement)
-            parse_pavement_number(cv, code);
+            parse_pavement_number(cv, pattern, code);
         else
             shape->crackle.form = parse_vector(cv);
         return true;
@@ -284,7 +284,7 @@ static bool parse_number_modifier(Converter *cv, PatternNode *pattern, int code)
     case KW_number_of_tiles:
     case KW_pattern:
         next_token(cv);
-        parse_pavement_number(cv, code);
+        parse_pavement_number(cv, pattern, code);
         return true;
     case KW_interior:
     case KW_exterior:
@@ -419,6 +419,7 @@ void parse_pattern(Converter *cv, PatternUse use, PatternNode *pattern) {
         next_token(cv);
         begin_pattern(pattern, info);
         pattern->loc = keep_place(cv, token);
+        pattern->pavement[0] = 3, pattern->pavement[1] = pattern->pavement[2] = 1;
         if (info->keyword == KW_uv_mapping)
             parse_uv_mapping(cv, use, pattern);
         else
@@ -426,5 +427,7 @@ void parse_pattern(Converter *cv, PatternUse use, PatternNode *pattern) {
     }
     while (parse_modifier(cv, use, pattern)) {
     }
+    if (pattern->info->keyword == KW_pavement)
+        check_pavement(pattern);
     leave_level(cv);
 }

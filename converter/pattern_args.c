@@ -141,13 +141,16 @@ static void parse_tiles(Converter *cv, PatternNode *pattern) {
     expect(cv, '{', "tiles");
     for (int i = 1; i >= 0; i--) {
         items[i].value = (float)i;
-        if (i == 0)
+        if (i == 0) {
+            if (!items[1].node)
+                die_expected(cv, "'texture' (First texture missing from tiles)");
             expect(cv, KW_tile2, "tiles");
+        }
         while (accept(cv, KW_texture))
             items[i].node = texture_layer(cv, parse_texture_block(cv), items[i].node, NULL);
-        if (!items[i].node)
-            items[i].node = cv->nodes->default_texture;
     }
+    if (!items[0].node)
+        items[0].node = cv->nodes->default_texture;
     expect(cv, '}', "tiles");
     pattern->map = map_create(cv, MAP_TEXTURE, items, 2);
 }

@@ -48,13 +48,32 @@ void check_modifier_fits(Converter *cv, const PatternInfo *info) {
     }
 }
 
-void parse_pavement_number(Converter *cv, int keyword) {
-    Loc loc = here(cv);
-    if (keyword == KW_number_of_tiles) {
-        number_within(cv, "number_of_tiles of pavement", 1, 6);
+void parse_pavement_number(Converter *cv, PatternNode *pattern, int keyword) {
+    double value = parse_float(cv);
+    if (keyword == KW_form)
+        return;
+    // POV-Ray keeps a byte.
+    int byte = fabs(value) < 2147483648.0 ? (int)value & 255 : 0;
+    pattern->pavement[keyword == KW_number_of_sides   ? 0
+                      : keyword == KW_number_of_tiles ? 1
+                                                      : 2] = byte;
+}
+
+void check_pavement(const PatternNode *pattern) {
+    static const int most[3][7] = {
+        {3, 1, 1, 1, 3, 4, 12}, {4, 1, 1, 2, 5, 12, 35}, {6, 1, 1, 3, 7, 22}};
+    const int sides = pattern->pavement[0], tiles = pattern->pavement[1];
+    for (int i = 0; i < 3; i++) {
+        if (most[i][0] != sides)
+            continue;
+        if (tiles < 1 || tiles > 6 || most[i][tiles] == 0)
+            die_at(pattern->loc, "number_of_tiles of pavement must be from 1 to %d, not %d",
+                   sides == 6 ? 5 : 6, tiles);
+        if (pattern->pavement[2] < 1 || pattern->pavement[2] > most[i][tiles])
+            die_at(pattern->loc,
+                   "pattern of a pavement with %d sides and %d tiles must be from 1 to %d, not %d",
+                   sides, tiles, most[i][tiles], pattern->pavement[2]);
         return;
     }
-    double value = parse_float(cv);
-    if (keyword == KW_number_of_sides && value != 3 && value != 4 && value != 6)
-        die_at(&loc, "number_of_sides of pavement must be 3, 4 or 6");
+    die_at(pattern->loc, "number_of_sides of pavement must be 3, 4 or 6, not %d", sides);
 }

@@ -53,11 +53,10 @@ static void parse_charset(Converter *cv) {
     cv->utf8 = false;
 }
 
-static void parse_two_floats(Converter *cv) {
-    parse_float(cv);
+static void parse_two_floats(Converter *cv, double out[2]) {
+    out[0] = parse_float(cv);
     optional_comma(cv);
-    if (starts_expression(cv))
-        parse_float(cv);
+    out[1] = parse_float(cv);
 }
 
 // What is wrong with a number of radiosity{}, or NULL.
@@ -73,12 +72,12 @@ static const char *radiosity_fault(int keyword, double value) {
         return positive && value <= 1 ? NULL
                                       : "pretrace must be greater than 0 and no higher than 1";
     case KW_count:
-        return value >= 0 ? NULL : "count must be a positive number";
+        return value >= 1 ? NULL : "count must be a positive number";
     case KW_gray_threshold:
         return value >= 0 && value <= 1 ? NULL : "gray_threshold must be from 0.0 to 1.0";
     case KW_minimum_reuse:
+        return value >= 0 ? NULL : "minimum_reuse can not be a negative number";
     case KW_maximum_reuse:
-        return value >= 0 ? NULL : "reuse can not be a negative number";
     case KW_error_bound:
     case KW_low_error_factor:
     case KW_brightness:
@@ -88,30 +87,54 @@ static const char *radiosity_fault(int keyword, double value) {
     }
 }
 
-static void parse_radiosity_number(Converter *cv, int keyword) {
+static double parse_radiosity_number(Converter *cv, int keyword) {
     Loc loc = here(cv);
-    const char *fault = radiosity_fault(keyword, parse_float(cv));
+    double value = parse_float(cv);
+    const char *fault = radiosity_fault(keyword, value);
     if (fault)
         die_at(&loc, "Radiosity %s", fault);
+    return value;
 }
 
-static bool parse_radiosity_item(Converter *cv) {
+// count F [, F]: out of how many directions; nearest_count F [, F]: which may be given up.
+static void parse_radiosity_counts(Converter *cv, int keyword) {
+    double count = floor(parse_radiosity_number(cv, keyword));
+    optional_comma(cv);
+    Loc loc = here(cv);
+    double other = keyword == KW_count ? fmax(count, 1600) : 0;
+    if (starts_expression(cv))
+        other = trunc(parse_float(cv));
+    if (keyword == KW_count && !(other >= count))
+        die_at(&loc, "Radiosity count can not be more than direction pool size");
+    if (keyword == KW_nearest_count && !(other >= 0 && other < count))
+        die_at(&loc, "Radiosity nearest_count's second value must be below the first");
+}
+
+static bool parse_radiosity_item(Converter *cv, RadiosityLimits *limits) {
     int code = peek_token(cv)->code;
     switch (code) {
     case KW_count:
     case KW_nearest_count:
         next_token(cv);
-        parse_radiosity_number(cv, code);
-        optional_comma(cv);
-        if (starts_expression(cv))
-            parse_float(cv);
+        parse_radiosity_counts(cv, code);
+        return true;
+    case KW_maximum_reuse:
+    case KW_minimum_reuse:
+        next_token(cv);
+        limits->reuse[code == KW_maximum_reuse] = parse_radiosity_number(cv, code);
+        limits->given[code == KW_maximum_reuse] = true;
+        return true;
+    case KW_pretrace_start:
+    case KW_pretrace_end:
+        next_token(cv);
+        limits->pretrace[code == KW_pretrace_end] = parse_radiosity_number(cv, code);
         return true;
     case KW_always_sample:
     case KW_media:
     case KW_normal:
     case KW_subsurface:
         next_token(cv);
-        parse_optional_bool(cv);
+        parse_float(cv);
         return true;
     case KW_load_file:
     case KW_save_file:
@@ -124,10 +147,6 @@ static bool parse_radiosity_item(Converter *cv) {
     case KW_gray_threshold:
     case KW_low_error_factor:
     case KW_max_sample:
-    case KW_maximum_reuse:
-    case KW_minimum_reuse:
-    case KW_pretrace_start:
-    case KW_pretrace_end:
     case KW_recursion_limit:
         next_token(cv);
         parse_radiosity_number(cv, code);
@@ -138,26 +157,52 @@ static bool parse_radiosity_item(Converter *cv) {
 }
 
 static void parse_radiosity_block(Converter *cv) {
+    RadiosityLimits *limits = &cv->nodes->radiosity;
+    Loc loc = here(cv);
     expect(cv, '{', "radiosity");
-    while (parse_radiosity_item(cv)) {
+    while (parse_radiosity_item(cv, limits)) {
     }
     expect(cv, '}', "radiosity");
+    if (limits->pretrace[1] > limits->pretrace[0])
+        die_at(&loc, "Radiosity pretrace end must be smaller than or equal to pretrace start");
+    if (limits->given[0] && limits->given[1] && limits->reuse[0] >= limits->reuse[1])
+        die_at(&loc, "Radiosity maximum_reuse must be larger than minimum_reuse");
 }
 
-static bool parse_photons_item(Converter *cv) {
+// media F [, F]
+static void parse_photons_media(Converter *cv) {
+    Loc loc = here(cv);
+    double steps = trunc(parse_float(cv)), factor = 1;
+    optional_comma(cv);
+    if (starts_expression(cv))
+        factor = parse_float(cv);
+    if (!(steps >= 0) || !(factor > 0))
+        die_at(&loc, "photons need a number of media steps that is not negative, and a spacing "
+                     "factor above 0");
+}
+
+static bool parse_photons_item(Converter *cv, double gather[2]) {
+    double unused[2];
     switch (peek_token(cv)->code) {
     case KW_radius:
         next_token(cv);
-        while (starts_expression(cv)) {
-            parse_float(cv);
+        for (int i = 0; i < 4; i++) {
+            if (starts_expression(cv))
+                parse_float(cv);
             optional_comma(cv);
         }
         return true;
     case KW_gather:
+        next_token(cv);
+        parse_two_floats(cv, gather);
+        return true;
     case KW_media:
+        next_token(cv);
+        parse_photons_media(cv);
+        return true;
     case KW_expand_thresholds:
         next_token(cv);
-        parse_two_floats(cv);
+        parse_two_floats(cv, unused);
         return true;
     case KW_load_file:
     case KW_save_file:
@@ -179,19 +224,26 @@ static bool parse_photons_item(Converter *cv) {
 }
 
 static void parse_photons_settings(Converter *cv) {
+    double gather[2] = {20, 100};
+    Loc loc = here(cv);
     expect(cv, '{', "photons");
-    while (parse_photons_item(cv)) {
+    while (parse_photons_item(cv, gather)) {
     }
     expect(cv, '}', "photons");
+    double least = trunc(gather[0]), most = trunc(gather[1]);
+    if (most > 0 && !(least >= 0 && least <= most))
+        die_at(&loc, "photons gather %g to %g: the first must be from 0 to the second", least,
+               most);
 }
 
 static void parse_subsurface_settings(Converter *cv) {
+    double samples[2];
     expect(cv, '{', "subsurface");
     for (;;) {
         if (accept(cv, KW_samples))
-            parse_two_floats(cv);
+            parse_two_floats(cv, samples);
         else if (accept(cv, KW_radiosity))
-            parse_optional_bool(cv);
+            parse_float(cv);
         else
             break;
     }

@@ -92,18 +92,33 @@ static void parse_cone(Converter *cv, ObjectNode *object) {
         object->object.type = OBJECT_CYLINDER;
 }
 
+// Of what has such a number POV-Ray shows nothing, or some part that its bounding box leaves.
+static void ignore_shape(Converter *cv, ObjectNode *object, const Token *token, const char *why) {
+    Loc loc = token_loc(cv, token);
+    warn_at(&loc, "%s: it is ignored, POV-Ray shows little or nothing of it", why);
+    object->ignored = true;
+}
+
 static void parse_torus(Converter *cv, ObjectNode *object) {
     TorusShape *torus = &object->object.shape.torus;
-    torus->major = parse_radius(cv, "torus");
+    const Token *token = peek_token(cv);
+    torus->major = parse_float(cv);
     optional_comma(cv);
-    torus->minor = parse_radius(cv, "torus");
+    torus->minor = parse_float(cv);
+    if (torus->major < 0 || torus->minor < 0)
+        ignore_shape(cv, object, token, "a radius of the torus is negative");
 }
 
 static void parse_disc(Converter *cv, ObjectNode *object) {
     DiscShape *disc = &object->object.shape.disc;
     disc->center = parse_vector(cv);
     optional_comma(cv);
-    disc->normal = parse_direction(cv, "disc");
+    const Token *token = peek_token(cv);
+    Vec3 normal = parse_vector(cv);
+    if (vec_length(normal) > 0.0)
+        disc->normal = vec_normalize(normal);
+    else
+        ignore_shape(cv, object, token, "the normal of the disc has no length");
     optional_comma(cv);
     disc->radius = fabs(parse_float(cv));
     optional_comma(cv);

@@ -159,7 +159,10 @@ static void parse_superellipsoid(Converter *cv, ObjectNode *object) {
     Vec2 e = parse_uv(cv);
     if (!(e.u > 0 && e.v > 0)) {
         Loc loc = token_loc(cv, token);
-        die_at(&loc, "the exponents of a superellipsoid must be above 0");
+        warn_at(&loc, "an exponent of the superellipsoid is not above 0: it is ignored, POV-Ray "
+                      "shows a box or something with holes");
+        object->ignored = true;
+        return;
     }
     object->object.shape.superellipsoid = (SuperellipsoidShape){e.u, e.v};
 }
@@ -260,6 +263,23 @@ static bool bezier_closed(const Vec2 *p, uint32_t count) {
     return same_point(p[count - 1], p[start]);
 }
 
+// A segment from p[i + 1] to p[i + 2] has its neighbours beside it, as many as the kind of curve
+// needs: are they all there? A ring ends where its first point comes again.
+static bool has_neighbours(const Vec2 *p, uint32_t count, OutlineType type) {
+    const uint32_t reach = type == OUTLINE_QUADRATIC ? 2 : 3;
+    Vec2 first = p[1];
+    for (uint32_t i = 0; i + 1 < count; i++) {
+        if (i + reach >= count)
+            return false;
+        if (!same_point(p[i + 2], first))
+            continue;
+        i += reach;
+        if (i + 2 < count)
+            first = p[i + 2];
+    }
+    return true;
+}
+
 // What is not closed POV-Ray closes if it is linear, and ignores else.
 static void close_prism(Converter *cv, ObjectNode *object, const Token *token) {
     PrismShape *prism = &object->object.shape.prism;
@@ -267,9 +287,13 @@ static void close_prism(Converter *cv, ObjectNode *object, const Token *token) {
     bool closed = prism->outline == OUTLINE_BEZIER
                       ? bezier_closed(prism->points, prism->count)
                       : ends_closed(prism->points, prism->count, prism->outline, &start);
+    bool curved = prism->outline == OUTLINE_QUADRATIC || prism->outline == OUTLINE_CUBIC;
+    Loc loc = token_loc(cv, token);
+    if (curved && !has_neighbours(prism->points, prism->count, prism->outline))
+        die_at(&loc, "Too few points in prism: no curve leads back to its first point, or the "
+                     "points beside it are missing");
     if (closed)
         return;
-    Loc loc = token_loc(cv, token);
     if (prism->outline != OUTLINE_LINEAR) {
         warn_at(&loc, "the prism is not closed: it is ignored");
         object->ignored = true;

@@ -233,7 +233,7 @@ static bool parse_kind(Converter *cv, RvalueUse use, Value *out, Reference *refe
         *out = (Value){.type = VALUE_FUNCTION, .node = parse_function(cv)};
     } else if (accept(cv, KW_spline)) {
         *out = (Value){.type = VALUE_SPLINE, .node = parse_spline(cv)};
-    } else if (code == KW_t || starts_expression(cv)) {
+    } else if (starts_expression(cv)) {
         parse_numeric(cv, use, out, reference);
     } else {
         return parse_statement_value(cv, out);

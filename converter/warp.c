@@ -117,10 +117,7 @@ static bool parse_black_hole(Converter *cv, Warp *warp) {
     bool acts = true;
     hole->center = parse_vector(cv);
     optional_comma(cv);
-    Loc loc = here(cv);
-    hole->radius = parse_float(cv);
-    if (!(hole->radius >= 0))
-        die_at(&loc, "the radius of a black hole must not be negative");
+    hole->radius = fabs(parse_float(cv)); // only its square counts
     for (;;) {
         if (accept(cv, KW_strength))
             hole->strength = parse_float(cv);

@@ -82,7 +82,10 @@ static void odd_numbers(void **state) {
     assert_true(root(s, 0)->inverse);
     assert_near(root(s, 1)->shape.cone.base_radius, 1);
     assert_near(root(s, 2)->shape.disc.radius, 3);
-    assert_dies("torus { 1, -1 }", "2:12: error: a radius of the torus is negative");
+    assert_warns("torus { 1, -1 }", "a radius of the torus is negative: it is ignored");
+    assert_warns("disc { 0, 0, 1 }", "the normal of the disc has no length: it is ignored");
+    assert_warns("superellipsoid { <1, -1> }", "is not above 0: it is ignored");
+    assert_int_equal(scene_of("torus { 1, -1 } disc { 0, 0, 1 } sphere { 0, 1 }")->object_count, 1);
     assert_dies("sphere { 0, 1e400 }", "2:1: error: a number of this sphere is not finite");
     assert_dies("box { <0, 1e400 - 1e400, 0>, 1 }", "not finite");
     assert_dies("cylinder { x, x, 1 }", "are the same point");

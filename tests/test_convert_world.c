@@ -136,8 +136,10 @@ static void several_cameras(void **state) {
     c = &scene_of("camera { aperture 1 blur_samples 4 direction 3*z look_at 9*y } sphere { 0, 1 }")
              ->camera;
     assert_true(c->blur.focal_distance == 3 && c->blur.min_samples == 0);
-    assert_warns("camera { mesh_camera { 1 0 } } sphere { 0, 1 }", "mesh_camera is not modelled");
-    assert_silent("#declare C = camera { mesh_camera { 1 0 } } sphere { 0, 1 }");
+    assert_warns("camera { mesh_camera { 1 0 mesh { triangle { 0, x, y } } } } sphere { 0, 1 }",
+                 "mesh_camera is not modelled");
+    assert_silent("#declare C = camera { mesh_camera { 1 0 mesh { triangle { 0, x, y } } } } "
+                  "sphere { 0, 1 }");
     assert_warns("camera { aperture 1 blur_samples 9 bokeh { pigment { rgb 1 } } } sphere { 0, 1 }",
                  "bokeh is not modelled");
     assert_silent("camera { bokeh { pigment { rgb 1 } } } sphere { 0, 1 }");

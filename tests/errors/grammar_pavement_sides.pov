@@ -1,2 +1,2 @@
-// 2:50 number_of_sides of pavement must be 3, 4 or 6
+// 2:25 number_of_sides of pavement must be 3, 4 or 6
 sphere { 0, 1 pigment { pavement number_of_sides 9 } }

@@ -196,7 +196,7 @@ clean:
 	rm -rf build
 
 # Pictures against POV-Ray's, with a table: all textures of the standard includes; the texture scenes
-# of povray-examples, and how long both take. 200,000 random points through random patterns. Minutes each.
+# of povray-examples, and how long both take. 470,000 random points through random patterns. Minutes each.
 sheet: all
 	@tests/texture_sheet.sh
 examples-pictures: all
@@ -207,7 +207,7 @@ pages: all
 examples-speed: all
 	@tests/examples_speed.sh
 points: build/test/test_points
-	@POINTS_ROUNDS=20 build/test/test_points
+	@POINTS_ROUNDS=34 build/test/test_points
 
 # All scenes of povray-examples and all standard includes, against POV-Ray: minutes.
 test-examples: deps

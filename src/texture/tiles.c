@@ -5,8 +5,9 @@
 
 #include <math.h>
 
-static const double ROOT_3 = 1.732050808;         // POV-Ray's digits here and below
-static const double HALF_ROOT_3 = 0.866025404;    // height of a triangle of side 1
+static const double ROOT_3 = 1.7320508075688772935;
+// Height of a triangle of side 1, with POV-Ray's digits, of which the hexagons have fewer.
+static const double HALF_ROOT_3 = 0.86602540378443864676, HEXAGON_HEIGHT = 0.866025404;
 static const double HEXAGON_PERIOD = 5.196152424; // 6 times that
 
 // Rounds towards minus infinity, but whole negative numbers go one further down.
@@ -78,7 +79,7 @@ double tiles_hexagon(Vec3 p) {
     static const unsigned char straight[2][6] = {{0, 1, 1, 2, 2, 0}, {2, 2, 0, 0, 1, 1}};
     static const unsigned char slanted[2][6] = {{0, 2, 1, 0, 2, 1}, {2, 1, 0, 2, 1, 0}};
     double x = fabs(p.x), z = p.z < 0.0 ? HEXAGON_PERIOD - fabs(p.z) : p.z;
-    x /= 0.5, z /= HALF_ROOT_3;
+    x /= 0.5, z /= HEXAGON_HEIGHT;
     x -= 6.0 * floor(x / 6.0), z -= 6.0 * floor(z / 6.0);
     double xf = floor_mirrored(x), zf = floor_mirrored(z);
     int i = modulo6(xf), j = modulo6(zf);

@@ -43,6 +43,7 @@ folder_of() {
             mkdir -p "$to" && cp -L "$from"/* "$to"
             for link in "$to"/*.inc; do
                 local name
+                [ -f "$link" ] || continue
                 name=$(head -c 200 "$link" | tr -d '\0')
                 [ "$name" != "" ] && [ -f "$to/$name" ] && cp "$to/$name" "$link"
             done

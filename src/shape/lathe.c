@@ -28,8 +28,7 @@ static void multiply(const double *p, const double *q, int n, double *out) {
             out[i + j] += p[i] * q[j];
 }
 
-static void put(const Turned *turned, uint32_t piece, double w, double t, HitSink *sink) {
-    (void)turned;
+static void put(uint32_t piece, double w, double t, HitSink *sink) {
     sink_put(sink, t, (int)piece, vec3(w, 0, 0));
 }
 
@@ -51,7 +50,7 @@ static void hits_steep(const Turned *turned, const CurvePiece *piece, uint32_t i
     hh[0] += turned->c * d * d;
     for (int count = roots_find(hh, 2 * n, 0.0, 1.0, roots); count > 0; count--) {
         double w = roots[count - 1];
-        put(turned, index, w, roots_value(h, n, w) / d, sink);
+        put(index, w, roots_value(h, n, w) / d, sink);
     }
 }
 
@@ -88,20 +87,39 @@ static void hits_level(const Turned *turned, const CurvePiece *piece, uint32_t i
         for (int side = -1; side <= 1; side += 2) {
             double w = roots[count - 1], t = middle + side * sqrt(half) / turned->a;
             if (sharpen(turned, piece, &w, &t))
-                put(turned, index, w, t, sink);
+                put(index, w, t, sink);
         }
     }
 }
 
-// Could the ray meet the ring of space around the piece's surface?
-static bool misses(const Turned *turned, const CurvePiece *piece) {
+static double distance2(const Turned *turned, double t) {
+    return (turned->a * t + 2.0 * turned->b) * t + turned->c;
+}
+
+// Does the ray miss the ring of space around the piece's surface, or come to it beyond t_max?
+static bool misses(const Turned *turned, const CurvePiece *piece, double t_max) {
     const Ray *ray = turned->ray;
     double o = ray->org.y, d = ray->dir.y;
     if ((d >= 0.0 && o > piece->high.v) || (d <= 0.0 && o < piece->low.v))
         return true;
-    double reach = fmax(fabs(piece->low.u), fabs(piece->high.u));
-    double nearest = turned->a > 0.0 ? turned->c - turned->b * turned->b / turned->a : turned->c;
-    return nearest > reach * reach * (1.0 + 1e-9);
+    double outer = fmax(fabs(piece->low.u), fabs(piece->high.u));
+    double inner = fmax(0.0, fmax(piece->low.u, -piece->high.u));
+    // Rounding of the squares, generously.
+    double slack = 1e-9 * outer * outer + 1e-12 * turned->c;
+    double low2 = inner * inner - slack, high2 = outer * outer + slack;
+    // The depths at which the ray is at the piece's heights.
+    double enter = 0.0, leave = INFINITY;
+    if (d != 0.0) {
+        double a = (piece->low.v - o) / d, b = (piece->high.v - o) / d;
+        enter = fmax(0.0, fmin(a, b));
+        leave = fmax(a, b);
+    }
+    if (enter * (1.0 - 1e-12) > t_max)
+        return true;
+    double middle = turned->a > 0.0 ? -turned->b / turned->a : enter;
+    if (distance2(turned, fmin(fmax(middle, enter), leave)) > high2)
+        return true;
+    return isfinite(leave) && distance2(turned, enter) < low2 && distance2(turned, leave) < low2;
 }
 
 // Below this a ray counts as level: what the steep way loses, 1e-16 / d^2 of a root's square, would
@@ -115,7 +133,7 @@ static void hits(const void *data, const Ray *ray, HitSink *sink) {
                            ray->org.x * ray->org.x + ray->org.z * ray->org.z};
     for (uint32_t i = 0; i < lathe->curve.count; i++) {
         const CurvePiece *piece = &lathe->curve.pieces[i];
-        if (misses(&turned, piece))
+        if (misses(&turned, piece, sink->t_max))
             continue;
         if (fabs(ray->dir.y) < LEVEL)
             hits_level(&turned, piece, i, sink);

@@ -39,6 +39,26 @@ static bool line_misses(const Line *line, const CurvePiece *piece) {
     return fabs(away) > reach + slack;
 }
 
+// Where the ray's shadow lies while the ray is at the prism's heights; everywhere for a cone.
+static Box shadow_of(const Prism *prism, const Ray *ray) {
+    Box box = SOLID_INFINITE;
+    if (prism->conic || ray->dir.y == 0.0)
+        return box;
+    double a = (prism->low - ray->org.y) / ray->dir.y, b = (prism->high - ray->org.y) / ray->dir.y;
+    Vec3 p = vec_madd(ray->org, a, ray->dir), q = vec_madd(ray->org, b, ray->dir);
+    if (!vec_is_finite(p) || !vec_is_finite(q))
+        return box;
+    // Depths are rounded, and then the points.
+    double slack = 1e-12 * (vec_length(ray->org) + fabs(a) + fabs(b));
+    return (Box){vec3(fmin(p.x, q.x) - slack, 0, fmin(p.z, q.z) - slack),
+                 vec3(fmax(p.x, q.x) + slack, 0, fmax(p.z, q.z) + slack)};
+}
+
+static bool shadow_misses(const Box *shadow, const CurvePiece *piece) {
+    return piece->low.u > shadow->high.x || piece->high.u < shadow->low.x ||
+           piece->low.v > shadow->high.z || piece->high.v < shadow->low.z;
+}
+
 // The depth at which the ray stands over p; false: it never does.
 static bool depth_at(const Prism *prism, const Ray *ray, Vec2 p, double *t) {
     if (!prism->conic) {
@@ -87,8 +107,10 @@ static void hits(const void *data, const Ray *ray, HitSink *sink) {
     Line line = {d.z, -d.x, d.x * o.z - d.z * o.x};
     if (prism->conic)
         line = (Line){o.z * d.y - o.y * d.z, o.y * d.x - o.x * d.y, o.x * d.z - o.z * d.x};
+    const Box shadow = shadow_of(prism, ray);
     for (uint32_t i = 0; i < prism->curve.count; i++)
-        if (!line_misses(&line, &prism->curve.pieces[i]))
+        if (!shadow_misses(&shadow, &prism->curve.pieces[i]) &&
+            !line_misses(&line, &prism->curve.pieces[i]))
             piece_hits(prism, ray, &line, i, sink);
 }
 

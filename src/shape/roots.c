@@ -74,12 +74,43 @@ static int between(const double *c, int n, double low, double high, const double
     return count;
 }
 
+// In Bernstein's form between 0 and 1 a polynomial lies between its least and largest coefficient:
+// of one sign, it has no root there. Few of those that are asked about have one.
+static bool has_none(const double *c, int n) {
+    static const double inverse_binomials[7][7] = {
+        {1},
+        {1, 1},
+        {1, 1.0 / 2, 1},
+        {1, 1.0 / 3, 1.0 / 3, 1},
+        {1, 1.0 / 4, 1.0 / 6, 1.0 / 4, 1},
+        {1, 1.0 / 5, 1.0 / 10, 1.0 / 10, 1.0 / 5, 1},
+        {1, 1.0 / 6, 1.0 / 15, 1.0 / 20, 1.0 / 15, 1.0 / 6, 1},
+    };
+    double b[7] = {0}, size = 0.0;
+    if (n > 6)
+        return false;
+    for (int i = 0; i <= n; i++) {
+        b[i] = c[i] * inverse_binomials[n][i];
+        size += fabs(c[i]);
+    }
+    for (int k = 1; k <= n; k++)
+        for (int i = n; i >= k; i--)
+            b[i] += b[i - 1];
+    // At most 2^n terms of up to `size` were added, each time with a rounding.
+    double least = 0x1p-42 * size, low = b[0], high = b[0];
+    for (int i = 1; i <= n; i++)
+        low = fmin(low, b[i]), high = fmax(high, b[i]);
+    return low > least || high < -least;
+}
+
 int roots_find(const double *c, int n, double low, double high, double *roots) {
     double derived[ROOTS_MAX_DEGREE + 1][ROOTS_MAX_DEGREE + 1];
     double buffers[2][ROOTS_MAX_DEGREE + 1];
     while (n > 0 && c[n] == 0.0)
         n--;
     if (n == 0 || !(low <= high))
+        return 0;
+    if (low == 0.0 && high == 1.0 && has_none(c, n))
         return 0;
     // derived[k] has degree k.
     for (int i = 0; i <= n; i++)

@@ -122,6 +122,8 @@ Curve curve_of_arcs(const double *arcs, uint32_t count, Arena *arena) {
 static bool crosses(const CurvePiece *piece, double u, double v) {
     if (v < piece->low.v || v > piece->high.v || u > piece->high.u)
         return false;
+    if (u < piece->low.u) // wherever it crosses, that is beyond u
+        return (piece->start.v > v) != (piece->end.v > v);
     double ends[6], values[6];
     int count = turns_of(piece->v, piece->degree, ends + 1) + 1;
     ends[0] = 0.0, values[0] = piece->start.v - v;
@@ -144,6 +146,19 @@ static bool crosses(const CurvePiece *piece, double u, double v) {
             odd = !odd;
     }
     return odd;
+}
+
+CurveBox curve_shadow(double u0, double v0, double u1, double v1, double slack) {
+    bool finite = isfinite(u0) && isfinite(v0) && isfinite(u1) && isfinite(v1);
+    if (!finite)
+        return CURVE_EVERYWHERE;
+    return (CurveBox){{fmin(u0, u1) - slack, fmin(v0, v1) - slack},
+                      {fmax(u0, u1) + slack, fmax(v0, v1) + slack}};
+}
+
+bool curve_apart(const CurveBox *shadow, Vec2 low, Vec2 high) {
+    return low.u > shadow->high.u || high.u < shadow->low.u || low.v > shadow->high.v ||
+           high.v < shadow->low.v;
 }
 
 bool curve_holds(const Curve *curve, double u, double v) {

@@ -22,6 +22,17 @@ typedef struct {
 
 // rings: closed curves stand one after the other in points (prism), else one curve (lathe).
 Curve curve_make(OutlineType type, const Vec2 *points, uint32_t count, bool rings, Arena *arena);
+// The part of the plane that a ray can be over.
+typedef struct {
+    Vec2 low, high;
+} CurveBox;
+#define CURVE_EVERYWHERE ((CurveBox){{-INFINITY, -INFINITY}, {INFINITY, INFINITY}})
+
+// Around the way from one point to another, slack wider; everywhere if that is not finite.
+CurveBox curve_shadow(double u0, double v0, double u1, double v1, double slack);
+// Has what lies between low and high no point in the shadow?
+bool curve_apart(const CurveBox *shadow, Vec2 low, Vec2 high);
+
 // Quadratic arcs of start, control and end point each (six numbers).
 Curve curve_of_arcs(const double *arcs, uint32_t count, Arena *arena);
 Vec2 curve_at(const CurvePiece *piece, double w);

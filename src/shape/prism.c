@@ -40,23 +40,13 @@ static bool line_misses(const Line *line, const CurvePiece *piece) {
 }
 
 // Where the ray's shadow lies while the ray is at the prism's heights; everywhere for a cone.
-static Box shadow_of(const Prism *prism, const Ray *ray) {
-    Box box = SOLID_INFINITE;
+static CurveBox shadow_of(const Prism *prism, const Ray *ray) {
     if (prism->conic || ray->dir.y == 0.0)
-        return box;
+        return CURVE_EVERYWHERE;
     double a = (prism->low - ray->org.y) / ray->dir.y, b = (prism->high - ray->org.y) / ray->dir.y;
     Vec3 p = vec_madd(ray->org, a, ray->dir), q = vec_madd(ray->org, b, ray->dir);
-    if (!vec_is_finite(p) || !vec_is_finite(q))
-        return box;
     // Depths are rounded, and then the points.
-    double slack = 1e-12 * (vec_length(ray->org) + fabs(a) + fabs(b));
-    return (Box){vec3(fmin(p.x, q.x) - slack, 0, fmin(p.z, q.z) - slack),
-                 vec3(fmax(p.x, q.x) + slack, 0, fmax(p.z, q.z) + slack)};
-}
-
-static bool shadow_misses(const Box *shadow, const CurvePiece *piece) {
-    return piece->low.u > shadow->high.x || piece->high.u < shadow->low.x ||
-           piece->low.v > shadow->high.z || piece->high.v < shadow->low.z;
+    return curve_shadow(p.x, p.z, q.x, q.z, 1e-12 * (vec_length(ray->org) + fabs(a) + fabs(b)));
 }
 
 // The depth at which the ray stands over p; false: it never does.
@@ -107,9 +97,9 @@ static void hits(const void *data, const Ray *ray, HitSink *sink) {
     Line line = {d.z, -d.x, d.x * o.z - d.z * o.x};
     if (prism->conic)
         line = (Line){o.z * d.y - o.y * d.z, o.y * d.x - o.x * d.y, o.x * d.z - o.z * d.x};
-    const Box shadow = shadow_of(prism, ray);
+    const CurveBox shadow = shadow_of(prism, ray);
     for (uint32_t i = 0; i < prism->curve.count; i++)
-        if (!shadow_misses(&shadow, &prism->curve.pieces[i]) &&
+        if (!curve_apart(&shadow, prism->curve.pieces[i].low, prism->curve.pieces[i].high) &&
             !line_misses(&line, &prism->curve.pieces[i]))
             piece_hits(prism, ray, &line, i, sink);
 }

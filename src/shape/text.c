@@ -45,10 +45,23 @@ static void side_hits(const Text *text, const CurvePiece *piece, const Ray *ray,
     }
 }
 
+// Where the ray's shadow lies while the ray is between front and back.
+static CurveBox shadow_of(const Text *text, const Ray *ray) {
+    if (ray->dir.z == 0.0)
+        return CURVE_EVERYWHERE;
+    double a = -ray->org.z / ray->dir.z, b = (text->thickness - ray->org.z) / ray->dir.z;
+    Vec3 p = vec_madd(ray->org, a, ray->dir), q = vec_madd(ray->org, b, ray->dir);
+    // Depths are rounded, and then the points.
+    return curve_shadow(p.x, p.y, q.x, q.y, 1e-12 * (vec_length(ray->org) + fabs(a) + fabs(b)));
+}
+
 static void hits(const void *data, const Ray *ray, HitSink *sink) {
     const Text *text = data;
+    const CurveBox shadow = shadow_of(text, ray);
     for (uint32_t i = 0; i < text->count; i++) {
         const Curve *letter = &text->letters[i];
+        if (curve_apart(&shadow, letter->low, letter->high))
+            continue;
         if (fabs(ray->dir.z) > SHAPE_EPSILON) {
             lid(text, letter, ray, 0.0, PART_FRONT, sink);
             lid(text, letter, ray, text->thickness, PART_BACK, sink);
@@ -56,7 +69,8 @@ static void hits(const void *data, const Ray *ray, HitSink *sink) {
         if (fabs(ray->dir.x) < SHAPE_EPSILON && fabs(ray->dir.y) < SHAPE_EPSILON)
             continue;
         for (uint32_t k = 0; k < letter->count; k++)
-            side_hits(text, &letter->pieces[k], ray, sink);
+            if (!curve_apart(&shadow, letter->pieces[k].low, letter->pieces[k].high))
+                side_hits(text, &letter->pieces[k], ray, sink);
     }
 }
 

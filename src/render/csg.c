@@ -102,17 +102,30 @@ static void join_children(const Maker *maker, CsgNode *node) {
     node->solid = node->solid_count > 0 && (!all || node->solid_count == node->child_count);
 }
 
+// POV-Ray keeps the box of a quadric within those of its clips, in the space of the quadric, though
+// the inside of some goes on out of theirs (below a height field): rays that miss it see nothing.
+static Box clipped_quadric(const Maker *maker, const CsgNode *node) {
+    Shape clipped = *node->shape;
+    Box *box = &clipped.as.solid.box;
+    for (uint32_t c = node->first_clip; c != NO_INDEX; c = maker->nodes.items[c].next) {
+        const Shape *clip = maker->nodes.items[c].shape;
+        if (clip && !clip->inverse)
+            *box = box_common(*box, shape_bounds_in(clip, clipped.transform));
+    }
+    if (!(box->low.x <= box->high.x && box->low.y <= box->high.y && box->low.z <= box->high.z))
+        return box_empty();
+    return widened(shape_bounds(&clipped));
+}
+
 static void apply_clips(const Maker *maker, CsgNode *node) {
     for (uint32_t c = node->first_clip; c != NO_INDEX; c = maker->nodes.items[c].next) {
         const CsgNode *clip = &maker->nodes.items[c];
         node->inside = box_common(node->inside, clip->inside);
         node->reach = box_common(node->reach, clip->inside);
-        // POV-Ray keeps the box of a quadric within those of its clips, though the inside of some
-        // goes on out of theirs (below a height field): rays that miss it see nothing.
-        if (node->object->type == OBJECT_QUADRIC && !clip->object->inverse)
-            node->reach = box_common(node->reach, clip->reach);
         node->solid = node->solid && clip->solid;
     }
+    if (node->object->type == OBJECT_QUADRIC && node->first_clip != NO_INDEX)
+        node->reach = box_common(node->reach, clipped_quadric(maker, node));
 }
 
 // framed: something around may hide hits.

@@ -207,6 +207,17 @@ Box shape_bounds(const Shape *shape) {
     return box_empty();
 }
 
+Box shape_bounds_in(const Shape *shape, const Transform *space) {
+    if (!space)
+        return shape_bounds(shape);
+    Shape moved = *shape;
+    Transform back = transform_inverse(space), whole = back;
+    if (shape->transform)
+        whole = transform_compose(shape->transform, &back);
+    moved.transform = &whole;
+    return shape_bounds(&moved);
+}
+
 // ---- between the spaces -------------------------------------------------------------------------
 
 bool shape_local_ray(const Transform *transform, const Ray *ray, LocalRay *local) {

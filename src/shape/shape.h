@@ -131,6 +131,8 @@ bool shape_has_inside(const Shape *shape);
 // unbounded: then shape_inside_bounded is false.
 Box shape_bounds(const Shape *shape);
 bool shape_inside_bounded(const Shape *shape);
+// The bounds in a space that `space` (NULL: it is the world) takes to the world.
+Box shape_bounds_in(const Shape *shape, const Transform *space);
 
 // ---- for the primitives' own files --------------------------------------------------------------
 

@@ -373,7 +373,7 @@ static void apply_blur(Converter *cv, Reader *reader) {
                  "bokeh is not modelled: all of the lens is equally clear");
 }
 
-// Only transforms may follow the name of a camera.
+// From version 3.5 on only transforms may follow the name of a camera.
 static CameraNode *parse_named(Converter *cv, const CameraNode *named) {
     CameraNode *node = arena_copy(cv->arena, named, sizeof *named);
     Move move;
@@ -385,14 +385,16 @@ static CameraNode *parse_named(Converter *cv, const CameraNode *named) {
 CameraNode *parse_camera_block(Converter *cv) {
     Nodes *nodes = cv->nodes;
     expect(cv, '{', "camera");
+    bool old = cv->version < 350;
     const Value *value = accept_value(cv, VALUE_CAMERA);
-    if (value) {
+    if (value && !old) {
         CameraNode *node = parse_named(cv, value->node);
         expect(cv, '}', "camera after its name");
         return node;
     }
-    bool old = cv->version < 350;
-    const CameraNode *base = old && nodes->camera ? nodes->camera : &nodes->default_camera;
+    const CameraNode *base = value                  ? value->node
+                             : old && nodes->camera ? nodes->camera
+                                                    : &nodes->default_camera;
     Reader reader = {.node = arena_copy(cv->arena, base, sizeof *base),
                      .old = old,
                      .direction_length = 1.0,

@@ -132,7 +132,7 @@ static void run_version(Converter *cv) {
     cv->version_set = true;
     if (!cv->noise_generator_set)
         cv->noise_generator = cv->version >= 350 ? 2 : 1;
-    if (!accept(cv, ';')) {
+    if (!accept(cv, ';') && cv->version >= 310) {
         Loc end = token_loc(cv, cv->language->last);
         warn_at(&end, "#version should end with a semi-colon ';'");
     }

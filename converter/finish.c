@@ -76,23 +76,30 @@ static void parse_subsurface(Converter *cv, FinishNode *node, const Token *token
              "subsurface is not modelled: no light is scattered below the surface");
 }
 
+static bool accept_albedo(Converter *cv) { // once is enough
+    bool any = false;
+    while (accept(cv, KW_albedo))
+        any = true;
+    return any;
+}
+
 static bool parse_strength(Converter *cv, Finish *finish, Albedo *albedo, int code) {
     switch (code) {
     case KW_diffuse:
         next_token(cv);
-        albedo->diffuse = accept(cv, KW_albedo);
+        albedo->diffuse = accept_albedo(cv);
         finish->diffuse = number(cv);
         optional_comma(cv);
         finish->diffuse_back = optional_number(cv, 0);
         return true;
     case KW_phong:
         next_token(cv);
-        albedo->phong = accept(cv, KW_albedo);
+        albedo->phong = accept_albedo(cv);
         finish->phong = number(cv);
         return true;
     case KW_specular:
         next_token(cv);
-        albedo->specular = accept(cv, KW_albedo);
+        albedo->specular = accept_albedo(cv);
         finish->specular = number(cv);
         return true;
     default:

@@ -102,12 +102,12 @@ void parse_image(Converter *cv, Picture *picture, bool to_working) {
     *picture = picture_default();
     picture->to_working = to_working;
     picture->decode = usual_decode(cv, to_working);
+    if (!starts_string(cv) && starts_expression(cv))
+        parse_vector(cv); // old: the direction of projection
     if (accept(cv, KW_function)) {
         parse_image_function(cv, picture);
         return;
     }
-    if (!starts_string(cv) && starts_expression(cv))
-        parse_vector(cv); // old: the direction of projection
     int type = accept_file_type(cv);
     Loc loc = here(cv);
     const char *name = parse_file_name(cv);

@@ -4,7 +4,7 @@
 
 #include <math.h>
 
-// contained_by { box { V, V } | sphere { V, F } }
+// contained_by { [box { V, V } | sphere { V, F }] }
 static void parse_container(Converter *cv, Container *out) {
     expect(cv, '{', "contained_by");
     if (accept(cv, KW_box)) {
@@ -15,15 +15,15 @@ static void parse_container(Converter *cv, Container *out) {
         out->in_sphere = false;
         out->low = vec_min(a, b);
         out->high = vec_max(a, b);
-    } else {
-        expect(cv, KW_sphere, "contained_by");
+        expect(cv, '}', "box");
+    } else if (accept(cv, KW_sphere)) {
         expect(cv, '{', "sphere");
         out->in_sphere = true;
         out->center = parse_vector(cv);
         optional_comma(cv);
         out->radius = fabs(parse_float(cv));
+        expect(cv, '}', "sphere");
     }
-    expect(cv, '}', "contained_by");
     expect(cv, '}', "contained_by");
 }
 

@@ -215,7 +215,7 @@ static Place loop_variable(Converter *cv) {
         place = (Place){.symbol = symbol_add(cv, token->name, scope_level(cv))};
         place.value = &place.symbol->value;
     }
-    expect(cv, ',', "#for");
+    optional_comma(cv);
     restore_directives(cv, held);
     return place;
 }
@@ -224,14 +224,16 @@ static bool past_end(double v, double end, double step) {
     return (step > 0 && v > end + EPSILON) || (step < 0 && v < end - EPSILON);
 }
 
-// #for ( NAME , F , F [, F] )
+// #for ( NAME [,] F [,] F [,] [F] )
 static void run_for(Converter *cv, const Token *word) {
     expect_raw(cv, '(', "#for");
     Loc loc = token_loc(cv, word);
     Place place = loop_variable(cv);
     Value start = {.type = VALUE_FLOAT, .c = {parse_float(cv)}};
-    expect(cv, ',', "#for");
-    double end = parse_float(cv), step = accept(cv, ',') ? parse_float(cv) : 1;
+    optional_comma(cv);
+    double end = parse_float(cv);
+    optional_comma(cv);
+    double step = starts_expression(cv) ? parse_float(cv) : 1;
     expect(cv, ')', "#for");
     if (fabs(step) < EPSILON)
         die_at(&loc, "#for loop increment must be non-zero");

@@ -141,6 +141,19 @@ static const void *parse_entry_body(Converter *cv, MapKind kind) {
     return NULL;
 }
 
+// POV-Ray divides by the sum of the weights.
+static void check_weights(Converter *cv, ItemList *list) {
+    float sum = 0;
+    for (const ItemLink *link = list->first; link; link = link->next)
+        sum += link->item.value;
+    if (sum != 0)
+        return;
+    Loc loc = here(cv);
+    warn_at(&loc, "the weights of this average add up to 0: all are taken for 1");
+    for (ItemLink *link = list->first; link; link = link->next)
+        link->item.value = 1;
+}
+
 const MapNode *parse_map(Converter *cv, MapKind kind, bool average) {
     const char *name = map_names[kind];
     ItemList list = {0};
@@ -163,6 +176,8 @@ const MapNode *parse_map(Converter *cv, MapKind kind, bool average) {
     }
     if (!map && list.count == 0)
         die_expected(cv, "'['");
+    if (average && !map)
+        check_weights(cv, &list);
     expect(cv, '}', name);
     leave_level(cv);
     return map ? map : finish_map(cv, kind, &list);

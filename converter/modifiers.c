@@ -250,6 +250,19 @@ static bool parse_surface(Converter *cv, ObjectNode *node) {
     }
 }
 
+// In version 1 an object's colour is what its pigment shows at low quality.
+static bool set_quick_color(Converter *cv, ObjectNode *node, Color color) {
+    if (!node->texture || !texture_is_plain(node->texture))
+        return false;
+    PatternNode pigment = *node->texture->pigment;
+    pigment.quick_color = color;
+    pigment.has_quick_color = true;
+    TextureNode texture = *node->texture;
+    texture.pigment = arena_copy(cv->arena, &pigment, sizeof pigment);
+    node->texture = arena_copy(cv->arena, &texture, sizeof texture);
+    return true;
+}
+
 static bool parse_object_modifier(Converter *cv, ObjectNode *node) {
     const Token *token = peek_token(cv);
     Move move;
@@ -269,8 +282,9 @@ static bool parse_object_modifier(Converter *cv, ObjectNode *node) {
         return true;
     if (starts_color(cv)) {
         Loc loc = token_loc(cv, token);
-        parse_color(cv);
-        warn_at(&loc, "a colour belongs into a pigment: it is ignored");
+        Color color = parse_color(cv);
+        if (cv->version >= 150 || !set_quick_color(cv, node, color))
+            warn_at(&loc, "a colour belongs into a pigment: it is ignored");
         return true;
     }
     return false;

@@ -118,6 +118,10 @@ void parse_warp(Converter *cv, PatternNode *pattern); // the block behind the ke
 // The contents of a block: [pattern] modifiers, on top of what *pattern holds. Identifiers are the
 // caller's. `texture_map` and its like are read by the functions of texture.c.
 void parse_pattern(Converter *cv, PatternUse use, PatternNode *pattern);
+// Its first item alone: a colour, or a pattern with what stands right behind it. False: there is
+// none, *pattern stays as it is.
+bool parse_pattern_start(Converter *cv, PatternUse use, PatternNode *pattern);
+void parse_quick_color(Converter *cv, PatternNode *pattern); // behind the keyword
 // pattern_fit.c: dies if the next token is a modifier that this pattern does not take.
 void check_modifier_fits(Converter *cv, const PatternInfo *info);
 void parse_pavement_number(Converter *cv, PatternNode *pattern, int keyword); // behind the word
@@ -184,6 +188,8 @@ const TextureNode *parse_texture_body(Converter *cv);
 const PatternNode *parse_pigment_block(Converter *cv, const PatternNode *base);
 const PatternNode *parse_normal_block(Converter *cv, const PatternNode *base);
 const TextureNode *parse_texture_block(Converter *cv);
+// texture_old.c: the items of a texture before version 3.0, on top of a plain one.
+const TextureNode *parse_old_items(Converter *cv, const TextureNode *texture);
 const FinishNode *parse_finish_block(Converter *cv, const FinishNode *base);
 const InteriorNode *parse_interior_block(Converter *cv, const InteriorNode *base);
 void parse_material_block(Converter *cv, MaterialNode *material);
@@ -352,6 +358,7 @@ typedef struct RootNode {
 struct Nodes {
     const TextureNode *default_texture;
     RadiosityLimits radiosity;
+    bool in_default; // the block of #default is being read
     CameraNode default_camera;
     CameraNode *camera;       // the last one; NULL: none yet
     CameraNode *first_camera; // the one that is meant with RenderOptions.clockless

@@ -312,6 +312,12 @@ static void parse_accuracy(Converter *cv, PatternNode *pattern) {
         die_at(&loc, "the accuracy of a normal must not be 0");
 }
 
+void parse_quick_color(Converter *cv, PatternNode *pattern) {
+    pattern->quick_color = parse_color(cv);
+    Color q = pattern->quick_color;
+    pattern->has_quick_color = q.r != -1.0F && q.g != -1.0F && q.b != -1.0F;
+}
+
 static bool parse_modifier(Converter *cv, PatternUse use, PatternNode *pattern) {
     Move move;
     int code = peek_token(cv)->code;
@@ -333,15 +339,12 @@ static bool parse_modifier(Converter *cv, PatternUse use, PatternNode *pattern) 
         pattern->shape.phase = (float)parse_float(cv);
         return true;
     case KW_quick_color:
-    case KW_quick_colour: {
+    case KW_quick_colour:
         if (use != USE_PIGMENT)
             return false;
         next_token(cv);
-        pattern->quick_color = parse_color(cv);
-        Color q = pattern->quick_color;
-        pattern->has_quick_color = q.r != -1.0F && q.g != -1.0F && q.b != -1.0F;
+        parse_quick_color(cv, pattern);
         return true;
-    }
     case KW_bump_size:
         if (use != USE_NORMAL)
             return false;
@@ -407,24 +410,31 @@ static void begin_pattern(PatternNode *pattern, const PatternInfo *info) {
         shape->has_turbulence = true;
 }
 
-void parse_pattern(Converter *cv, PatternUse use, PatternNode *pattern) {
-    enter_level(cv);
+bool parse_pattern_start(Converter *cv, PatternUse use, PatternNode *pattern) {
     const Token *token = peek_token(cv);
     const PatternInfo *info = pattern_find(token->code);
     if ((use == USE_PIGMENT || use == USE_DENSITY) && starts_color(cv)) {
         pattern->info = pattern_find(KW_color);
         pattern->loc = NULL;
         pattern->color = parse_color(cv);
-    } else if (info && pattern_fits(use, token->code)) {
-        next_token(cv);
-        begin_pattern(pattern, info);
-        pattern->loc = keep_place(cv, token);
-        pattern->pavement[0] = 3, pattern->pavement[1] = pattern->pavement[2] = 1;
-        if (info->keyword == KW_uv_mapping)
-            parse_uv_mapping(cv, use, pattern);
-        else
-            parse_pattern_arguments(cv, use, pattern);
+        return true;
     }
+    if (!info || !pattern_fits(use, token->code))
+        return false;
+    next_token(cv);
+    begin_pattern(pattern, info);
+    pattern->loc = keep_place(cv, token);
+    pattern->pavement[0] = 3, pattern->pavement[1] = pattern->pavement[2] = 1;
+    if (info->keyword == KW_uv_mapping)
+        parse_uv_mapping(cv, use, pattern);
+    else
+        parse_pattern_arguments(cv, use, pattern);
+    return true;
+}
+
+void parse_pattern(Converter *cv, PatternUse use, PatternNode *pattern) {
+    enter_level(cv);
+    parse_pattern_start(cv, use, pattern);
     while (parse_modifier(cv, use, pattern)) {
     }
     if (pattern->info->keyword == KW_pavement)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Objects and pigments that the text asks about while it is read: each becomes a small scene once,
 // when it is first asked about, and is kept by the address of its node, since nodes do not change.
+// The kind of noise may: with another one it becomes another scene.
 #include "converter/probing.h"
 
 #include "converter/emit.h"
@@ -10,14 +11,16 @@
 
 struct ProbeEntry {
     const void *node; // NULL: free
-    Probe *probe;     // NULL: not possible
-    const char *gap;  // why not, or NULL
+    int noise_generator;
+    Probe *probe;    // NULL: not possible
+    const char *gap; // why not, or NULL
     uint32_t pigment;
 };
 
-static size_t slot_of(const ProbeTable *table, const void *node) {
+static size_t slot_of(const ProbeTable *table, const void *node, int noise) {
     size_t slot = ((uintptr_t)node >> 4) * 0x9E3779B97F4A7C15u >> 20 & (table->capacity - 1);
-    while (table->entries[slot].node && table->entries[slot].node != node)
+    while (table->entries[slot].node &&
+           (table->entries[slot].node != node || table->entries[slot].noise_generator != noise))
         slot = (slot + 1) & (table->capacity - 1);
     return slot;
 }
@@ -28,7 +31,8 @@ static void grow(Converter *cv, ProbeTable *table) {
     grown.entries = ARENA_ARRAY(cv->arena, ProbeEntry, grown.capacity);
     for (size_t i = 0; i < table->capacity; i++)
         if (table->entries[i].node)
-            grown.entries[slot_of(&grown, table->entries[i].node)] = table->entries[i];
+            grown.entries[slot_of(&grown, table->entries[i].node,
+                                  table->entries[i].noise_generator)] = table->entries[i];
     *table = grown;
 }
 
@@ -37,8 +41,9 @@ static ProbeEntry *entry_of(Converter *cv, const void *node, bool *made) {
     ProbeTable *table = &cv->language->probes;
     if (2 * (table->count + 1) > table->capacity)
         grow(cv, table);
-    ProbeEntry *entry = &table->entries[slot_of(table, node)];
+    ProbeEntry *entry = &table->entries[slot_of(table, node, cv->noise_generator)];
     *made = !entry->node;
+    entry->noise_generator = cv->noise_generator;
     if (*made)
         table->count++;
     entry->node = node;

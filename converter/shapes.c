@@ -122,7 +122,7 @@ static void parse_disc(Converter *cv, ObjectNode *object) {
     optional_comma(cv);
     disc->radius = fabs(parse_float(cv));
     optional_comma(cv);
-    if (starts_expression(cv))
+    while (starts_expression(cv)) // the last one counts
         disc->hole = fabs(parse_float(cv));
 }
 

@@ -148,6 +148,7 @@ static void set_default_texture(Converter *cv, const Token *token, const Texture
 
 void parse_default_block(Converter *cv) {
     Nodes *nodes = cv->nodes;
+    nodes->in_default = true;
     expect(cv, '{', "#default");
     for (;;) {
         const Token *token = peek_token(cv);
@@ -163,6 +164,7 @@ void parse_default_block(Converter *cv) {
         }
     }
     expect(cv, '}', "#default");
+    nodes->in_default = false;
 }
 
 // ---- the top level

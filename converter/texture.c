@@ -214,13 +214,28 @@ static const TextureNode *parse_patterned(Converter *cv, const TextureNode *base
     return copy_texture(cv, &node);
 }
 
+// Before version 3.0: of the patterned ones only tiles and material_map.
+static const TextureNode *parse_old_texture(Converter *cv, const TextureNode *texture, bool named,
+                                            bool *flag) {
+    if (!named && (next_is(cv, KW_tiles) || next_is(cv, KW_material_map)))
+        texture = parse_patterned(cv, texture);
+    if (texture_is_plain(texture)) {
+        while (parse_bare_part(cv, &texture)) {
+        }
+        texture = parse_old_items(cv, texture);
+    }
+    return parse_moves(cv, texture, flag);
+}
+
 const TextureNode *parse_texture_body(Converter *cv) {
     const Value *value = accept_value(cv, VALUE_TEXTURE);
     const TextureNode *base = value ? value->node : cv->nodes->default_texture;
     enter_level(cv);
     const TextureNode *texture = base;
     bool no_bump_scale = false;
-    if (texture_is_plain(texture)) {
+    if (cv->version < 300) {
+        texture = parse_old_texture(cv, texture, value != NULL, &no_bump_scale);
+    } else if (texture_is_plain(texture)) {
         while (parse_bare_part(cv, &texture)) {
         }
         const TextureNode *before;

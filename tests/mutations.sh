@@ -6,7 +6,7 @@
 #   mutations.sh [FIRST [COUNT]]      or  mutations.sh --grammar  for the lines of tests/grammar.txt
 set -u
 cd "$(dirname "$0")/.." || exit 2
-work=$PWD/build/mutations
+work=$PWD/build/mutations${1:-}
 rm -rf "$work"
 mkdir -p "$work" || exit 2
 export program=${POV2QI:-$PWD/build/pov2qi}

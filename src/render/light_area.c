@@ -37,12 +37,12 @@ static void turn_axes(const AreaLight *area, Vec3 towards, Vec3 axis[2]) {
     axis[1] = vec_scale(vec_normalize(vec_cross(towards, across)), length);
 }
 
-static Vec3 grid_offset(const Grid *grid, int i, int j) {
-    const AreaLight *area = grid->area;
+// tracer: NULL where nothing jitters.
+static Vec2 place_of(const AreaLight *area, Tracer *tracer, int i, int j) {
     double at[2] = {i, j};
     for (int k = 0; k < 2; k++) {
         if (area->jitter)
-            at[k] += jitter_next(grid->tracer);
+            at[k] += jitter_next(tracer);
         at[k] = area->size[k] > 1 ? at[k] / (area->size[k] - 1) - 0.5 : 0.0;
     }
     if (area->circular && area->size[0] > 1 && area->size[1] > 1) {
@@ -54,7 +54,26 @@ static Vec3 grid_offset(const Grid *grid, int i, int j) {
         at[0] *= scale;
         at[1] *= scale;
     }
-    return vec_add(vec_scale(grid->axis[0], at[0]), vec_scale(grid->axis[1], at[1]));
+    return (Vec2){at[0], at[1]};
+}
+
+Vec2 *area_places(const AreaLight *area, Arena *arena) {
+    if (area->jitter)
+        return NULL;
+    size_t points = (size_t)area->size[0] * (size_t)area->size[1];
+    Vec2 *places = ARENA_ARRAY(arena, Vec2, points);
+    for (int i = 0; i < area->size[0]; i++)
+        for (int j = 0; j < area->size[1]; j++)
+            places[(size_t)i * (size_t)area->size[1] + (size_t)j] = place_of(area, NULL, i, j);
+    return places;
+}
+
+static Vec3 grid_offset(const Grid *grid, int i, int j) {
+    const AreaLight *area = grid->area;
+    const Vec2 *places = grid->tracer->shading->places[grid->index];
+    Vec2 at = places ? places[(size_t)i * (size_t)area->size[1] + (size_t)j]
+                     : place_of(area, grid->tracer, i, j);
+    return vec_add(vec_scale(grid->axis[0], at.u), vec_scale(grid->axis[1], at.v));
 }
 
 // Not yet asked for: no colour of light is so dark.

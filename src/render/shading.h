@@ -68,6 +68,7 @@ struct Shading {
     BowAngles *bows;      // one per rainbow
     Rgb hues[DISPERSION_HUES];
     size_t grid_limit; // points in the largest area light
+    Vec2 **places;     // one per light: its points, in shares of its axes; NULL where they jitter
     Arena *arena;
 };
 
@@ -178,6 +179,8 @@ void light_shine(Tracer *tracer, const LitLayer *layer, bool shadowless, const L
 bool light_behind(const LitLayer *layer, Vec3 dir, bool *dark);
 
 // light_area.c
+// The points of an area light before any jitter; NULL: it has some.
+Vec2 *area_places(const AreaLight *area, Arena *arena);
 // Replaces sample->color by the mean over the grid of what the shadows leave of it.
 void area_shadow(Tracer *tracer, const Surface *surface, uint32_t index, LightSample *sample);
 // area_illumination: the layer under each point of the grid. color: what one of them sends.

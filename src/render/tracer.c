@@ -87,6 +87,7 @@ static void prepare_lights(Shading *shading) {
     const Scene *scene = shading->scene;
     shading->axes = ARENA_ARRAY(shading->arena, LightAxis, scene->light_count);
     shading->projections = ARENA_ARRAY(shading->arena, World *, scene->light_count);
+    shading->places = ARENA_ARRAY(shading->arena, Vec2 *, scene->light_count);
     for (uint32_t i = 0; i < scene->light_count; i++) {
         const Light *light = &scene->lights[i];
         LightAxis *axis = &shading->axes[i];
@@ -102,6 +103,8 @@ static void prepare_lights(Shading *shading) {
         size_t points = (size_t)light->area.size[0] * (size_t)light->area.size[1];
         if (light->has_area && points > shading->grid_limit)
             shading->grid_limit = points;
+        if (light->has_area)
+            shading->places[i] = area_places(&light->area, shading->arena);
     }
 }
 

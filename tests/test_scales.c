@@ -88,13 +88,14 @@ static void sheets_are_two(void **state) {
         d.z *= pow(10.0, -rng_range(&rng, 0, 4));
         ray = (Ray){hit.p, d};
         WorldNear near = world_near(world, &hit, d, 1e-4);
+        uint32_t last = WORLD_NO_BLOCKER;
         assert_true(world_nearest(world, &ray, near, INFINITY, RAY_ALL, NULL, &next));
         assert_int_equal(next.object, second);
-        assert_true(world_blocked(world, &ray, near, INFINITY, NULL));
+        assert_true(world_blocked(world, &ray, near, INFINITY, &last, NULL));
         ray.dir = d = vec_neg(d);
         near = world_near(world, &hit, d, 1e-4);
         assert_false(world_nearest(world, &ray, near, INFINITY, RAY_ALL, NULL, &next));
-        assert_false(world_blocked(world, &ray, near, INFINITY, NULL));
+        assert_false(world_blocked(world, &ray, near, INFINITY, &last, NULL));
     }
     world_destroy(world);
     stage_end(&stage);

@@ -189,6 +189,7 @@ static double length_error(const Stage *stage, const Ray *ray, const WorldHit *h
 }
 
 static void compare_rays(const Stage *stage, Rng *rng, int count, int *hits) {
+    uint32_t last = WORLD_NO_BLOCKER;
     for (int i = 0; i < count; i++) {
         uint64_t seed = rng->state;
         Ray ray = random_ray(rng);
@@ -202,6 +203,9 @@ static void compare_rays(const Stage *stage, Rng *rng, int count, int *hits) {
                      (unsigned long long)seed, hit ? "hit" : "miss", hit ? got.t : 0.0,
                      hit ? got.object : 0, want.t, want.object);
         assert_int_equal(world_occluded(stage->world, &ray, 1e-4, t_max, &stats), hit);
+        // Whatever blocked the rays before.
+        WorldNear near = {1e-4, 1e-4};
+        assert_int_equal(world_blocked(stage->world, &ray, near, t_max, &last, NULL), hit);
         *hits += hit;
         if (!hit)
             continue;

@@ -79,23 +79,23 @@ static Vec3 grid_offset(const Grid *grid, int i, int j) {
 // Not yet asked for: no colour of light is so dark.
 static const float UNKNOWN = -1e30f;
 
-static Rgb grid_color(Grid *grid, int i, int j) {
+static const Rgb *grid_color(Grid *grid, int i, int j) {
     Tracer *tracer = grid->tracer;
     Rgb *color = &tracer->grid[(size_t)i * (size_t)grid->area->size[1] + (size_t)j];
     if (color->r != UNKNOWN)
-        return *color;
+        return color;
     const WorldHit *hit = grid->surface->hit;
     LightSample s;
     *color = grid->color;
     if (!light_aim(tracer->shading, grid->index, hit->p, grid_offset(grid, i, j), &s))
-        return *color; // nothing can be between
+        return color; // nothing can be between
     grid->fog_distance = shadow_filter_point(tracer, grid->index, hit, s.dir, s.distance,
                                              grid->surface->path->inside, color);
-    return *color;
+    return color;
 }
 
-static bool uneven(Rgb a, Rgb b) {
-    return fabs(a.r - b.r) + fabs(a.g - b.g) + fabs(a.b - b.b) > UNEVEN;
+static bool uneven(const Rgb *a, const Rgb *b) {
+    return fabs(a->r - b->r) + fabs(a->g - b->g) + fabs(a->b - b->b) > UNEVEN;
 }
 
 // POV-Ray looks at the light's middle anew before it goes into a part, but adds the middle to
@@ -110,9 +110,11 @@ static void look_twice_as_far(Grid *grid) {
     grid->fog_distance = s.distance;
 }
 
-static Rgb rectangle_color(Grid *grid, int left, int low, int right, int high, int level) {
+static void rectangle_color(Grid *grid, int left, int low, int right, int high, int level,
+                            Rgb *color) {
     const int corner[4][2] = {{left, low}, {right, low}, {left, high}, {right, high}};
-    Rgb c[4];
+    const Rgb *c[4];
+    Rgb parts[4];
     for (int k = 0; k < 4; k++)
         c[k] = grid_color(grid, corner[k][0], corner[k][1]);
     bool divide = level < grid->area->adaptive || uneven(c[0], c[1]) || uneven(c[1], c[3]) ||
@@ -125,10 +127,12 @@ static Rgb rectangle_color(Grid *grid, int left, int low, int right, int high, i
         for (int k = 0; k < 4; k++) {
             if (grid->foggy)
                 look_twice_as_far(grid);
-            c[k] = rectangle_color(grid, part[k][0], part[k][1], part[k][2], part[k][3], level + 1);
+            rectangle_color(grid, part[k][0], part[k][1], part[k][2], part[k][3], level + 1,
+                            &parts[k]);
+            c[k] = &parts[k];
         }
     }
-    return rgb_scale(rgb_add(rgb_add(rgb_add(c[0], c[1]), c[2]), c[3]), 0.25);
+    *color = rgb_scale(rgb_add(rgb_add(rgb_add(*c[0], *c[1]), *c[2]), *c[3]), 0.25);
 }
 
 void area_shadow(Tracer *tracer, const Surface *surface, uint32_t index, LightSample *sample) {
@@ -146,7 +150,7 @@ void area_shadow(Tracer *tracer, const Surface *surface, uint32_t index, LightSa
     size_t points = (size_t)area->size[0] * (size_t)area->size[1];
     for (size_t i = 0; i < points; i++)
         tracer->grid[i].r = UNKNOWN;
-    sample->color = rectangle_color(&grid, 0, 0, area->size[0] - 1, area->size[1] - 1, 0);
+    rectangle_color(&grid, 0, 0, area->size[0] - 1, area->size[1] - 1, 0, &sample->color);
     if (grid.foggy)
         shadow_fog(shading, index, (Ray){surface->hit->p, grid.fog_dir}, grid.fog_distance,
                    surface->path->inside, &sample->color);

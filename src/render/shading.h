@@ -111,6 +111,7 @@ struct Tracer {
     uint32_t area_jitter;         // the same for points of area lights
     uint32_t bow_jitter;          // and of rainbows
     LightSample *lights;          // one per light, for the hit being shaded
+    uint32_t *blockers;           // one per light: what was before it last (world_blocked)
     uint64_t hits, lights_hit;    // shaded so far; the number of the one that lights is for
     Rgb *grid;                    // light_area.c: what is known of the area light at hand
     LayerReflection *reflections; // a stack; each hit under way holds a piece of it

@@ -203,7 +203,9 @@ static double follow(Tracer *tracer, Way *way, double distance, double before, R
     const World *world = way->shading->world;
     const Rgb black = {0};
     if (way->shading->all_opaque) {
-        if (world_blocked(world, &way->ray, way->near, distance - before, &tracer->stats))
+        if (world_blocked(world, &way->ray, way->near, distance - before,
+                          &tracer->blockers[way->light - way->shading->scene->lights],
+                          &tracer->stats))
             *color = black;
         return distance;
     }

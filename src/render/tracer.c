@@ -156,6 +156,9 @@ Tracer *tracer_create(const Shading *shading) {
     tracer->arena = arena;
     tracer->shading = shading;
     tracer->lights = ARENA_ARRAY(arena, LightSample, shading->scene->light_count);
+    tracer->blockers = ARENA_ARRAY(arena, uint32_t, shading->scene->light_count);
+    for (uint32_t i = 0; i < shading->scene->light_count; i++)
+        tracer->blockers[i] = WORLD_NO_BLOCKER;
     tracer->grid = ARENA_ARRAY(arena, Rgb, shading->grid_limit);
     tracer->reflections =
         ARENA_ARRAY(arena, LayerReflection, (size_t)(NESTING_LIMIT + 1) * shading->layer_limit);

@@ -320,10 +320,11 @@ bool world_nearest(const World *world, const Ray *ray, WorldNear near, double t_
 
 bool world_occluded(const World *world, const Ray *ray, double t_min, double t_max,
                     RayStats *stats) {
-    return world_blocked(world, ray, (WorldNear){t_min, t_min}, t_max, stats);
+    uint32_t last = WORLD_NO_BLOCKER;
+    return world_blocked(world, ray, (WorldNear){t_min, t_min}, t_max, &last, stats);
 }
 
-bool world_blocked(const World *world, const Ray *ray, WorldNear near, double t_max,
+bool world_blocked(const World *world, const Ray *ray, WorldNear near, double t_max, uint32_t *last,
                    RayStats *stats) {
     Ray unit;
     RayStats unused;
@@ -339,10 +340,18 @@ bool world_blocked(const World *world, const Ray *ray, WorldNear near, double t_
     query.kind = RAY_SHADOW;
     query.any = true;
     double patch_min = query.patch_min;
+    if (*last < world->prim_count) {
+        try_prim(&query, &world->prims[*last]);
+        if (query.leaf)
+            return true;
+        *last = WORLD_NO_BLOCKER;
+    }
     if (world->patches && patchset_occluded(world->patches, &unit, patch_min, query.t, RAY_SHADOW,
                                             &query.stats->patch))
         return true;
     try_prims(&query);
+    if (query.leaf)
+        *last = (uint32_t)(query.prim - world->prims);
     if (!query.leaf && world->filtered)
         patchset_all(world->filtered, &unit, patch_min, query.t, RAY_SHADOW, &query.stats->patch,
                      try_patch_hit, &query);

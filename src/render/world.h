@@ -67,8 +67,10 @@ bool world_nearest(const World *world, const Ray *ray, WorldNear near, double t_
 // The same with one t_min for all.
 bool world_intersect(const World *world, const Ray *ray, double t_min, double t_max, RayKind kind,
                      RayStats *stats, WorldHit *hit);
-// Is anything that throws a shadow between? Only right when all of that is opaque.
-bool world_blocked(const World *world, const Ray *ray, WorldNear near, double t_max,
+// Is anything that throws a shadow between? Only right when all of that is opaque. last: what
+// blocked the ray before, WORLD_NO_BLOCKER at first: it is asked first, and kept up to date.
+#define WORLD_NO_BLOCKER UINT32_MAX
+bool world_blocked(const World *world, const Ray *ray, WorldNear near, double t_max, uint32_t *last,
                    RayStats *stats);
 bool world_occluded(const World *world, const Ray *ray, double t_min, double t_max,
                     RayStats *stats);

@@ -4,7 +4,6 @@
 // into a palette.
 #include "converter/nodes.h"
 
-#include "image/gif.h"
 #include "image/picture.h"
 
 #include <math.h>
@@ -107,14 +106,11 @@ static HeightMap *map_of_halves(Converter *cv, const StoredPicture *gif) {
 
 static const HeightMap *map_of_picture(Converter *cv, const Picture *source, const Token *token) {
     Arena *scratch = arena_create();
-    StoredPicture gif = {0};
-    const StoredPicture *picture = &gif;
-    gif.places = gif_read(scratch, source->path, &gif.width, &gif.height);
-    if (!gif.places)
-        picture = picture_read(scratch, source->path, source->type == PICTURE_PNG);
-    bool pot = source->type == PICTURE_POT && gif.places;
-    check_size(cv, token, pot ? gif.width / 2 : picture->width, picture->height);
-    const HeightMap *map = pot ? map_of_halves(cv, &gif) : map_of_values(cv, picture, source->type);
+    const StoredPicture *picture = picture_read(scratch, source->path, source->type == PICTURE_PNG);
+    bool pot = source->type == PICTURE_POT && picture->places && !picture->grey_palette;
+    check_size(cv, token, pot ? picture->width / 2 : picture->width, picture->height);
+    const HeightMap *map =
+        pot ? map_of_halves(cv, picture) : map_of_values(cv, picture, source->type);
     arena_destroy(scratch);
     return map;
 }

@@ -137,6 +137,57 @@ static void transparency(void **state) {
     check(&rows);
 }
 
+// A GIF of 128 colours, its places in codes of 8 bits: before their strings need a ninth, the table
+// is cleared.
+static const char *draw_gif(void) {
+    const char *path = arena_printf(arena, "%s/places.gif", scratch_folder());
+    FILE *file = fopen(path, "wb");
+    assert_non_null(file);
+    fwrite("GIF89a", 1, 6, file);
+    const unsigned char screen[] = {WIDTH + 1, 0, HEIGHT, 0, 0xf6, 0, 0};
+    fwrite(screen, 1, sizeof screen, file);
+    for (int i = 0; i < 128; i++)
+        for (int c = 0; c < 3; c++)
+            fputc((i * (37 + 20 * c) + 50 * c) % 256, file);
+    const unsigned char transparent[] = {0x21, 0xf9, 4, 1, 0, 0, 9, 0};
+    fwrite(transparent, 1, sizeof transparent, file);
+    const unsigned char picture[] = {0x2c, 0, 0, 0, 0, WIDTH + 1, 0, HEIGHT, 0, 0, 7};
+    fwrite(picture, 1, sizeof picture, file);
+    for (int y = 0; y < HEIGHT; y++) {
+        fputc(WIDTH + 2, file);
+        fputc(128, file); // clear
+        for (int x = 0; x < WIDTH + 1; x++)
+            fputc((x / 2 + y / 3 * 5) % 128, file);
+    }
+    const unsigned char end[] = {1, 129, 0, 0x3b};
+    fwrite(end, 1, sizeof end, file);
+    assert_int_equal(fclose(file), 0);
+    return path;
+}
+
+// By the palette and its places. Before, only the colours of a GIF were known: filter and transmit
+// of a place were refused, and use_index took the grey.
+static void gif_places(void **state) {
+    (void)state;
+    Rows rows = {0};
+    static const char *const texts[] = {
+        "pigment { image_map { gif \"%s\" } " LAID
+        " } } plane { z, 3 pigment { checker rgb 1 rgb 0.2 }",
+        "pigment { image_map { gif \"%s\" filter 3, 0.7 transmit 5, 0.6 interpolate 2 } " LAID
+        " } } plane { z, 3 pigment { checker rgb 1 rgb 0.2 }",
+        "pigment { image_pattern { gif \"%s\" use_index } " LAID " }",
+        "pigment { image_pattern { gif \"%s\" } " LAID " }",
+        "pigment { rgb 0.9 } normal { bump_map { gif \"%s\" use_index interpolate 2 bump_size 20 "
+        "} " LAID " }",
+        "texture { material_map { gif \"%s\" texture { pigment { rgb x } } texture { pigment { rgb "
+        "y } } "
+        "texture { pigment { rgb z } } } " LAID " }",
+    };
+    for (size_t i = 0; i < sizeof texts / sizeof *texts; i++)
+        add(&rows, draw_gif(), texts[i]);
+    check(&rows);
+}
+
 // Pictures made by functions, of numbers and of colours, some over 1 and below 0; through every
 // pattern that looks at pictures. Before, they were a plain grey.
 static void functions(void **state) {
@@ -245,9 +296,10 @@ static void values(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(functions),      cmocka_unit_test(formats),
-        cmocka_unit_test(transparency),   cmocka_unit_test(layouts),
-        cmocka_unit_test(gamma_of_files), cmocka_unit_test(values),
+        cmocka_unit_test(functions), cmocka_unit_test(gif_places),
+        cmocka_unit_test(formats),   cmocka_unit_test(transparency),
+        cmocka_unit_test(layouts),   cmocka_unit_test(gamma_of_files),
+        cmocka_unit_test(values),
     };
     return cmocka_run_group_tests_name("image_map", tests, set_up, tear_down);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A GIF (its first picture) by its own few rules: blocks, then codes of growing length for strings
-// of indices (LZW).
+// A GIF (its first picture) by its own few rules: a palette, blocks, then codes of growing length
+// for strings of places in it (LZW).
 #include "image/gif.h"
 
 #include <stdbool.h>
@@ -118,63 +118,84 @@ static int interlaced_row(int row, int height) {
     return height - 1;
 }
 
-static uint8_t *gif_picture(Gif *gif, Arena *arena, int *width, int *height) {
-    gif->at += 4; // where it stands on the screen
-    *width = (int)word(gif), *height = (int)word(gif);
-    unsigned flags = byte(gif);
-    if (flags & 0x80)
-        gif->at += 3U << ((flags & 7) + 1);
-    if (*width < 1 || *height < 1 || *width > MAX_SIDE || *height > MAX_SIDE)
-        return NULL;
-    size_t row_size = (size_t)*width;
-    uint8_t *pixels = arena_array(arena, row_size, (size_t)*height);
-    if (!unpack(gif, pixels, row_size * (size_t)*height))
-        return NULL;
-    if (!(flags & 0x40))
-        return pixels;
-    uint8_t *ordered = arena_array(arena, row_size, (size_t)*height);
-    for (int row = 0; row < *height; row++)
-        memcpy(ordered + (size_t)interlaced_row(row, *height) * row_size,
-               pixels + (size_t)row * row_size, row_size);
-    return ordered;
+// A table of colours, as the flags say that there is one; all opaque.
+static void read_palette(Gif *gif, unsigned flags, StoredPicture *out) {
+    if (!(flags & 0x80))
+        return;
+    out->palette_size = 2 << (flags & 7);
+    for (int i = 0; i < out->palette_size; i++) {
+        for (int c = 0; c < 3; c++)
+            out->palette[i][c] = (uint8_t)byte(gif);
+        out->palette[i][3] = 255;
+    }
 }
 
-static uint8_t *read_gif(Gif *gif, Arena *arena, int *width, int *height) {
+// One may make a colour transparent.
+static void read_extension(Gif *gif, StoredPicture *out) {
+    if (byte(gif) == 0xf9 && gif->at + 4 < gif->size && gif->bytes[gif->at] >= 4 &&
+        (gif->bytes[gif->at + 1] & 1) && gif->bytes[gif->at + 4] < out->palette_size)
+        out->palette[gif->bytes[gif->at + 4]][3] = 0;
+    skip_blocks(gif);
+}
+
+static bool read_places(Gif *gif, Arena *arena, StoredPicture *out) {
+    gif->at += 4; // where it stands on the screen
+    int width = (int)word(gif), height = (int)word(gif);
+    unsigned flags = byte(gif);
+    read_palette(gif, flags, out);
+    if (out->palette_size == 0 || width < 1 || height < 1 || width > MAX_SIDE || height > MAX_SIDE)
+        return false;
+    size_t row_size = (size_t)width;
+    uint8_t *places = arena_array(arena, row_size, (size_t)height);
+    out->width = width, out->height = height;
+    out->places = places;
+    if (!unpack(gif, places, row_size * (size_t)height))
+        return false;
+    if (!(flags & 0x40))
+        return true;
+    out->places = arena_array(arena, row_size, (size_t)height);
+    for (int row = 0; row < height; row++)
+        memcpy(out->places + (size_t)interlaced_row(row, height) * row_size,
+               places + (size_t)row * row_size, row_size);
+    return true;
+}
+
+static bool read_blocks(Gif *gif, Arena *arena, StoredPicture *out) {
     gif->at = 10;
     unsigned flags = byte(gif);
-    gif->at = 13 + (flags & 0x80 ? 3U << ((flags & 7) + 1) : 0);
+    gif->at = 13;
+    read_palette(gif, flags, out);
     while (gif->at < gif->size) {
         unsigned kind = byte(gif);
         if (kind == 0x2c)
-            return gif_picture(gif, arena, width, height);
+            return read_places(gif, arena, out);
         if (kind != 0x21)
-            return NULL;
-        byte(gif); // which extension
-        skip_blocks(gif);
+            return false;
+        read_extension(gif, out);
     }
-    return NULL;
+    return false;
 }
 
-static uint8_t *try_gif(FILE *in, Arena *arena, int *width, int *height) {
+static bool read_file(FILE *in, Arena *arena, StoredPicture *out) {
     if (fseek(in, 0, SEEK_END) != 0)
-        return NULL;
+        return false;
     long size = ftell(in);
     if (size < 14 || size > 1L << 30)
-        return NULL;
+        return false;
     rewind(in);
     uint8_t *bytes = arena_alloc(arena, (size_t)size);
     Gif gif = {.bytes = bytes, .size = fread(bytes, 1, (size_t)size, in)};
-    return read_gif(&gif, arena, width, height);
+    return read_blocks(&gif, arena, out);
 }
 
-uint8_t *gif_read(Arena *arena, const char *path, int *width, int *height) {
+bool gif_read(Arena *arena, const char *path, StoredPicture *out) {
     char start[4] = {0};
     FILE *in = fopen(path, "rb");
     if (!in)
-        return NULL;
-    uint8_t *pixels = NULL;
-    if (fread(start, 1, sizeof start, in) == sizeof start && memcmp(start, "GIF8", 4) == 0)
-        pixels = try_gif(in, arena, width, height);
+        return false;
+    *out = (StoredPicture){.channels = 3, .bits = 8};
+    bool good = fread(start, 1, sizeof start, in) == sizeof start &&
+                memcmp(start, "GIF8", 4) == 0 && read_file(in, arena, out);
     fclose(in);
-    return pixels;
+    return good;
 }

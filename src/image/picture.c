@@ -2,6 +2,7 @@
 #include "image/picture.h"
 
 #include "base/diag.h"
+#include "image/gif.h"
 #include "image/png_read.h"
 
 StoredPicture *picture_read(Arena *arena, const char *path, bool png) {
@@ -12,6 +13,8 @@ StoredPicture *picture_read(Arena *arena, const char *path, bool png) {
             die("cannot read '%s': %s", path, why);
         return picture;
     }
+    if (gif_read(arena, path, picture))
+        return picture;
     const Image *image = image_read(arena, path);
     *picture = (StoredPicture){.width = image->width,
                                .height = image->height,

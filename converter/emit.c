@@ -99,7 +99,8 @@ typedef struct {
     SharedInterior *interior; // NULL at top level
     const Loc *cutaway;       // cutaway_textures around
     bool textured;            // texture is not the default one
-    bool body;                // of clipped_by: only its shape counts
+    bool body;                // of clipped_by and the like: only its shape counts
+    bool nested;              // in something that is one object to POV-Ray
     bool uv_mapping, no_shadow, no_image, no_reflection;
     bool hollow, double_set, double_illuminate;
     bool grouped;          // some light_group is around
@@ -109,6 +110,10 @@ typedef struct {
 } Inherited;
 
 static uint32_t emit_object(Emitter *e, const ObjectNode *node, const Inherited *from);
+
+static bool is_there(const ObjectNode *node);
+
+static void emit_missing(Emitter *e, const ObjectNode *node);
 
 static void emit_clips(Emitter *e, const ObjectNode *node, Object *object);
 
@@ -198,6 +203,86 @@ static uint32_t emit_light(Emitter *e, const ObjectNode *node, const Inherited *
     return emit_object(e, node->light->looks_like, &own);
 }
 
+// ---- bounds (facts: rendering 7.7, 8)
+
+// Top-level unions are taken apart, but not those with bounds.
+static bool is_split(const ObjectNode *node) {
+    return node->object.type == OBJECT_UNION && !node->clips && !node->no_split &&
+           (!node->bounds || node->keyword == KW_light_group);
+}
+
+// POV-Ray drops the bounds of what is cheap to meet, where it is an object of its own.
+static bool drops_bounds(const ObjectNode *node, const Inherited *from) {
+    if (from->nested || from->body)
+        return false;
+    return object_is_tree(&node->object)
+               ? is_split(node)
+               : node->object.type != OBJECT_POLY && node->object.type != OBJECT_TEXT;
+}
+
+static uint64_t count_frames(const ObjectNode *node) {
+    if (node->light || !is_split(node))
+        return 1;
+    uint64_t count = 0;
+    for (const ObjectNode *child = node->first; child; child = child->next)
+        count += count_frames(child);
+    return count;
+}
+
+// What POV-Ray has as one object is looked for only on rays that meet its box; a few types only as
+// far as a tree of boxes leads to them, which there is from so many objects on.
+enum { BOUNDING_THRESHOLD = 3 };
+
+static bool looks_at_box(const Emitter *e, const ObjectNode *node, const Inherited *from) {
+    switch (node->object.type) {
+    case OBJECT_PLANE:
+    case OBJECT_SPHERE:
+    case OBJECT_BOX:
+    case OBJECT_POLY:
+    case OBJECT_TRIANGLE:
+    case OBJECT_SMOOTH_TRIANGLE:
+        return !from->body && e->frame_count >= BOUNDING_THRESHOLD;
+    default:
+        return true;
+    }
+}
+
+static bool find_box(const Emitter *e, const ObjectNode *node, const Inherited *from, Box *box) {
+    if (from->nested || is_split(node) || !node_extent_cuts(node) || !looks_at_box(e, node, from) ||
+        !node_extent(node, box))
+        return false;
+    Vec3 size = vec_sub(box->high, box->low);
+    return fmin(size.x, fmin(size.y, size.z)) >= 0 && vec_length(size) < 1e10;
+}
+
+// from: what is around the node.
+static void emit_bounds(Emitter *e, const ObjectNode *node, const Inherited *from, Object *object) {
+    const Inherited body = {.body = true};
+    const ObjectNode *bounds = drops_bounds(node, from) ? NULL : node->bounds;
+    Box box;
+    uint32_t count = 1;
+    for (const ObjectNode *bound = bounds; bound; bound = bound->next)
+        count++;
+    ObjectList list = {ARENA_ARRAY(e->cv->arena, uint32_t, count), 0};
+    if (find_box(e, node, from, &box)) {
+        Object limit = object_default(OBJECT_BOX);
+        limit.shape.box = (BoxShape){box.low, box.high};
+        list.items[list.count++] = store_object(e, &limit);
+    }
+    for (const ObjectNode *bound = bounds; bound; bound = bound->next) {
+        if (!is_there(bound)) {
+            emit_missing(e, bound);
+            emit_gap(e, node->bound_loc, "bounded_by is left out: what it would cut away is shown");
+            continue;
+        }
+        uint32_t index = emit_object(e, bound, &body);
+        if (index != NO_INDEX)
+            list.items[list.count++] = index;
+    }
+    if (list.count > 0)
+        object->bounds = list;
+}
+
 // ---- cutaway_textures
 
 // The first texture in the tree, NULL without one; *mixed: there are others.
@@ -235,7 +320,18 @@ static void cut_away(Emitter *e, const ObjectNode *node, Inherited *own) {
 
 // ---- trees
 
-static uint32_t emit_tree(Emitter *e, const ObjectNode *node, Inherited *own) {
+// A union whose parts throw no shadow throws none.
+static bool throws_none(const Emitter *e, const Object *tree) {
+    for (uint32_t i = 0; i < tree->shape.children.count; i++)
+        if (!e->objects.items[tree->shape.children.items[i]].no_shadow)
+            return false;
+    return true;
+}
+
+// from: what is around it; own: what it is to its children.
+static uint32_t emit_tree(Emitter *e, const ObjectNode *node, const Inherited *from,
+                          Inherited *own) {
+    own->nested = from->nested || !is_split(node);
     cut_away(e, node, own);
     SharedInterior shared = {.node = node->interior, .texture = own->texture, .index = NO_INDEX};
     if (node->interior || !own->interior)
@@ -256,14 +352,20 @@ static uint32_t emit_tree(Emitter *e, const ObjectNode *node, Inherited *own) {
     apply_flags(&object, own);
     object.shape.children = (ObjectList){items, count};
     emit_clips(e, node, &object);
+    emit_bounds(e, node, from, &object);
+    bool union_alone = object.type == OBJECT_UNION && own->nested && !from->nested;
+    object.whole = union_alone && !object.clips.count;
+    object.no_shadow = object.no_shadow || (union_alone && throws_none(e, &object));
     return store_object(e, &object);
 }
 
-static uint32_t emit_leaf(Emitter *e, const ObjectNode *node, const Inherited *own) {
+static uint32_t emit_leaf(Emitter *e, const ObjectNode *node, const Inherited *from,
+                          const Inherited *own) {
     Object object = node->object;
     apply_flags(&object, own);
     if (object.type != OBJECT_PATCH)
         emit_clips(e, node, &object);
+    emit_bounds(e, node, from, &object);
     emit_solid(e, node, own->body, &object);
     if (own->body)
         return store_object(e, &object);
@@ -278,45 +380,6 @@ static uint32_t emit_leaf(Emitter *e, const ObjectNode *node, const Inherited *o
         object.interior = store_interior(e, NULL);
     take_from_finish(e, object.interior, own->texture);
     return store_object(e, &object);
-}
-
-static bool list_extent(const ObjectNode *list, Box *out) {
-    *out = (Box){vec3(-1e10, -1e10, -1e10), vec3(1e10, 1e10, 1e10)};
-    for (; list; list = list->next) {
-        Box box;
-        if (!node_extent(list, &box))
-            return false;
-        out->low = vec_max(out->low, box.low);
-        out->high = vec_min(out->high, box.high);
-    }
-    return true;
-}
-
-static bool box_holds(const Box *outer, const Box *inner) {
-    return outer->low.x <= inner->low.x && outer->low.y <= inner->low.y &&
-           outer->low.z <= inner->low.z && outer->high.x >= inner->high.x &&
-           outer->high.y >= inner->high.y && outer->high.z >= inner->high.z;
-}
-
-static bool cuts_box(const ObjectNode *list, const Box *box) {
-    Box limit;
-    return list && (!list_extent(list, &limit) || !box_holds(&limit, box));
-}
-
-// POV-Ray ignores clipped_by on a patch, but both it and bounded_by can shrink the patch's box, and
-// rays that miss the box miss the patch (facts: rendering 7.7). Elsewhere a bound is a hint.
-static void check_bodies(Emitter *e, const ObjectNode *node) {
-    if (node->object.type != OBJECT_PATCH)
-        return;
-    Box box = box_empty();
-    for (int i = 0; i < 16; i++)
-        box = box_extend(box, node->object.shape.patch.points[i]);
-    if (cuts_box(node->bounds, &box))
-        emit_gap(e, node->bound_loc,
-                 "bounded_by may cut this patch in POV-Ray: here it is shown whole");
-    if (cuts_box(node->clips, &box))
-        emit_gap(e, node->clip_loc,
-                 "clipped_by may cut this patch at a box in POV-Ray: here it is shown whole");
 }
 
 // Lights shine even out of an object that is left out.
@@ -402,15 +465,16 @@ static uint32_t emit_object(Emitter *e, const ObjectNode *node, const Inherited 
     if (node->light)
         return emit_light(e, node, &own);
     enter_group(e, node, &own);
-    check_bodies(e, node);
     if (object_is_tree(&node->object))
-        return emit_tree(e, node, &own);
-    return emit_leaf(e, node, &own);
+        return emit_tree(e, node, from, &own);
+    return emit_leaf(e, node, from, &own);
 }
 
 bool object_is_there(const ObjectNode *object) { return is_there(object); }
 
 static void emit_roots(Emitter *e) {
+    for (const RootNode *root = e->cv->nodes->first; root; root = root->next)
+        e->frame_count += count_frames(root->object);
     for (const RootNode *root = e->cv->nodes->first; root; root = root->next) {
         Inherited from = {.texture = root->default_texture};
         uint32_t index = emit_object(e, root->object, &from);

@@ -43,6 +43,7 @@ typedef struct {
     ARRAY(Light) lights;
     ARRAY(uint32_t) projections;
     uint32_t group_count; // of light_groups
+    uint64_t frame_count; // what POV-Ray has at the top: objects and lights
     ARRAY(Picture) pictures;
     ARRAY(DensityFile) densities;
     ARRAY(Pigment) pigments;

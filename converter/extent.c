@@ -155,8 +155,16 @@ static double box_volume(Box b) {
     return d.x * d.y * d.z;
 }
 
-static bool list_box(const ObjectNode *list, bool together, Box *out) {
-    Box all = together ? box_empty() : infinite_box();
+// POV-Ray's flag: planes and surfaces never have it.
+static bool is_flipped(const ObjectNode *node) {
+    if (object_is_tree(&node->object))
+        return node->flipped;
+    return node->object.inverse && !node->surface;
+}
+
+// The box around all.
+static bool joint_box(const ObjectNode *list, Box *out) {
+    *out = box_empty();
     bool any = false;
     for (; list; list = list->next) {
         Box box;
@@ -164,10 +172,44 @@ static bool list_box(const ObjectNode *list, bool together, Box *out) {
             continue;
         if (!node_extent(list, &box))
             return false;
-        all = together ? box_union(all, box) : box_intersect(all, box);
+        *out = box_union(*out, box);
         any = true;
     }
-    *out = any ? all : infinite_box();
+    if (!any)
+        *out = infinite_box();
+    return true;
+}
+
+// A plane across an axis ends there, as a member of an intersection.
+static Box plane_box(const PlaneShape *plane) {
+    Box box = infinite_box();
+    double n[3] = {plane->normal.x, plane->normal.y, plane->normal.z};
+    double *low = &box.low.x, *high = &box.high.x;
+    for (int i = 0; i < 3; i++) {
+        if (!(fabs(n[(i + 1) % 3]) < 1e-10 && fabs(n[(i + 2) % 3]) < 1e-10))
+            continue;
+        if (n[i] > 0)
+            high[i] = plane->distance;
+        else
+            low[i] = -plane->distance;
+    }
+    return box;
+}
+
+// What all have in common; those that are inverted do not count.
+static bool common_box(const ObjectNode *list, bool members, Box *out) {
+    *out = infinite_box();
+    for (; list; list = list->next) {
+        Box box;
+        const Object *object = &list->object;
+        if (list->light || is_flipped(list) || (members && object->type == OBJECT_HEIGHT_FIELD))
+            continue;
+        if (!node_extent(list, &box))
+            return false;
+        if (members && object->type == OBJECT_PLANE)
+            box = plane_box(&object->shape.plane);
+        *out = box_intersect(*out, box);
+    }
     return true;
 }
 
@@ -176,29 +218,44 @@ static bool shrink(const ObjectNode *bodies, Box *box) {
     Box limit;
     if (!bodies)
         return true;
-    if (!list_box(bodies, false, &limit))
+    if (!common_box(bodies, false, &limit))
         return false;
     if (box_volume(limit) < box_volume(*box))
         *box = limit;
     return true;
 }
 
+// POV-Ray gives up boxes that are empty or too large.
+static const double CRITICAL_LENGTH = 1e6;
+
+static Box sound_box(Box box) {
+    Vec3 size = vec_sub(box.high, box.low);
+    bool empty = size.x < 0 || size.y < 0 || size.z < 0;
+    if (empty || fmax(size.x, fmax(size.y, size.z)) > CRITICAL_LENGTH)
+        return infinite_box();
+    return box;
+}
+
 void csg_box_begin(ObjectNode *node) {
     Box box;
-    if (node->keyword == KW_difference && node->first)
-        node->has_box = node_extent(node->first, &box);
-    else
-        node->has_box = list_box(node->first, node->keyword != KW_intersection, &box);
+    bool all = node->keyword == KW_intersection || node->keyword == KW_difference;
+    node->has_box = all ? common_box(node->first, true, &box) : joint_box(node->first, &box);
     if (node->has_box)
-        node->box = round_box(box);
+        node->box = round_box(sound_box(box));
 }
 
-void csg_box_move(ObjectNode *node, const Move *move) {
+// Most leaves are measured anew, as if there were no bounds.
+void extent_move(ObjectNode *node, const Move *move) {
+    bool keeps = node->object.type == OBJECT_MESH || node->object.type == OBJECT_QUADRIC;
+    node->boxed = node->boxed && keeps;
+    node->clip_box =
+        node->clips && (node->object.type == OBJECT_PLANE || node->object.type == OBJECT_POLY);
     if (node->has_box)
-        node->box = round_box(transformed_box(node->box, &move->t));
+        node->box = round_box(box_intersect(transformed_box(node->box, &move->t), infinite_box()));
 }
 
-void csg_box_bound(ObjectNode *node) {
+void extent_bound(ObjectNode *node) {
+    node->boxed = node->bounds || node->clips;
     if (node->has_box)
         node->has_box = shrink(node->bounds, &node->box) && shrink(node->clips, &node->box);
 }
@@ -209,11 +266,42 @@ bool node_extent(const ObjectNode *node, Box *out) {
         return true;
     if (!node->modelled || (object_is_tree(&node->object) && !node->light))
         return false;
-    Box box = node->light ? infinite_box() : leaf_box(node);
-    if (!shrink(node->bounds, &box) || !shrink(node->clips, &box))
+    Box box;
+    if (node->clip_box && !node_extent(node->clips, &box))
+        return false;
+    if (!node->clip_box)
+        box = node->light ? infinite_box() : leaf_box(node);
+    if (node->boxed && (!shrink(node->bounds, &box) || !shrink(node->clips, &box)))
         return false;
     *out = round_box(box);
     return true;
+}
+
+// A body that clips has the box of what it holds, unless something in it is inverted.
+static bool bodies_cut(const ObjectNode *list) {
+    for (; list; list = list->next)
+        if (!is_flipped(list) && node_extent_cuts(list))
+            return true;
+    return false;
+}
+
+bool node_extent_cuts(const ObjectNode *node) {
+    if (node->light)
+        return false;
+    if (node->bounds || (node->clips && node->object.type == OBJECT_PATCH))
+        return true;
+    if (bodies_cut(node->clips) || (node->clip_box && node->clips && is_flipped(node->clips)))
+        return true;
+    if (!object_is_tree(&node->object))
+        return false;
+    if (node->flipped)
+        return true;
+    bool all = node->keyword == KW_intersection || node->keyword == KW_difference;
+    for (const ObjectNode *child = node->first; child; child = child->next)
+        if (all ? !is_flipped(child) && node_extent_cuts(child)
+                : is_flipped(child) || node_extent_cuts(child))
+            return true;
+    return false;
 }
 
 bool object_extent(Converter *cv, const Value *value, Box *out) {

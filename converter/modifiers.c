@@ -3,6 +3,8 @@
 // bounded_by, clipped_by. Read in the order of writing, since a transform moves what is there.
 #include "converter/nodes.h"
 
+#include <math.h>
+
 static bool parse_flag(Converter *cv, ObjectNode *node, int code) {
     Object *object = &node->object;
     switch (code) {
@@ -75,7 +77,7 @@ static bool parse_rare_flag(Converter *cv, ObjectNode *node, const Token *token)
         if (node->keyword != KW_union && node->keyword != KW_composite && node->keyword != KW_merge)
             die_misplaced(cv, token, "'split_union' can only be used in a union");
         next_token(cv);
-        parse_float(cv);
+        node->no_split = (int)fmax(fmin(parse_float(cv), 2), -2) == 0;
         return true;
     case KW_cutaway_textures:
         if (node->keyword != KW_intersection && node->keyword != KW_difference)
@@ -293,7 +295,7 @@ static bool parse_object_modifier(Converter *cv, ObjectNode *node) {
 void parse_object_modifiers(Converter *cv, ObjectNode *node) {
     while (parse_object_modifier(cv, node)) {
     }
-    csg_box_bound(node);
+    extent_bound(node);
     if (node->interior_texture && !node->texture) {
         Loc loc = here(cv);
         die_at(&loc, "interior_texture needs a texture as well");

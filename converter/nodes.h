@@ -299,6 +299,10 @@ struct ObjectNode {
     bool ignored;                     // POV-Ray leaves it out
     Box box;                          // of a CSG, as extent.c keeps it
     bool has_box;
+    bool boxed;    // a leaf: bounds and clips stand around its box, as extent.c takes them
+    bool clip_box; // a plane or poly that was moved with its clips: it has the first one's box
+    bool flipped;  // a CSG: inverted an odd number of times
+    bool no_split; // a union or merge: split_union off
     LightNode *light;
     const Loc *loc; // of the statement, if it is not modelled
     const Gap *gaps;
@@ -341,10 +345,12 @@ void parse_csg_data(Converter *cv, ObjectNode *object);
 
 // The axis-aligned box as POV-Ray keeps it, in single precision; false: the object is not modelled.
 bool node_extent(const ObjectNode *object, Box *out);
-// The kept box of a CSG: from its children, after a transform, at the end of its modifiers.
+// Rays that miss the box miss the object in POV-Ray: may it be smaller than the object?
+bool node_extent_cuts(const ObjectNode *object);
+// The kept box of a CSG: from its children, after a transform.
 void csg_box_begin(ObjectNode *object);
-void csg_box_move(ObjectNode *object, const Move *move);
-void csg_box_bound(ObjectNode *object);
+void extent_move(ObjectNode *object, const Move *move);
+void extent_bound(ObjectNode *object); // of any object, at the end of its modifiers
 
 // ---- the whole: statement.c, emit.c
 // --------------------------------------------------------------

@@ -169,12 +169,13 @@ void object_move(Converter *cv, ObjectNode *object, Move *move) {
             object_move(cv, object->light->projected_through, move);
     }
     shape_move(object, move);
-    csg_box_move(object, move);
+    extent_move(object, move);
 }
 
 // The inverse of a union or merge is the intersection of the inverses; that of an intersection is
 // the merge of them: its inner walls are gone (measured).
 static void invert_csg(Converter *cv, ObjectNode *object) {
+    object->flipped = !object->flipped;
     bool becomes_merge = object->keyword == KW_intersection || object->keyword == KW_difference;
     object_unshare(cv, object);
     for (ObjectNode *child = object->first; child; child = child->next)

@@ -530,6 +530,9 @@ static uint32_t make_objects(Rng *rng, Arena *arena, Scene *scene, int depth, ui
                 make_objects(rng, arena, scene, depth + 1, &object.shape.children.items);
         if (!leaf && type != OBJECT_PATCH && random_below(rng, 4) == 0)
             object.clips.count = make_objects(rng, arena, scene, depth + 1, &object.clips.items);
+        if (!leaf && random_below(rng, 16) == 0)
+            object.bounds.count = make_objects(rng, arena, scene, depth + 1, &object.bounds.items);
+        object.whole = type == OBJECT_UNION && !object.clips.count && random_bool(rng);
         scene->objects[index] = object;
         (*items)[i] = index;
     }

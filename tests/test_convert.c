@@ -229,14 +229,33 @@ static void patch_bounds(void **state) {
     (void)state;
     const char *patch = "bicubic_patch { type 1 " PATCH_POINTS;
     char text[1024];
-    snprintf(text, sizeof text, "%s bounded_by { box { -1, 4 } } }", patch);
-    assert_silent(text);
-    snprintf(text, sizeof text, "%s bounded_by { box { -1, 2 } } }", patch);
-    assert_warns(text, "bounded_by may cut this patch");
-    snprintf(text, sizeof text, "%s clipped_by { box { -1, 2 } } }", patch);
-    assert_warns(text, "clipped_by may cut this patch");
+    // POV-Ray keeps the smaller of the two boxes, and cuts the patch at it.
+    static const double highs[] = {2, 1};
+    for (int clip = 0; clip < 2; clip++)
+        for (int i = 0; i < 2; i++) {
+            snprintf(text, sizeof text, "%s %s { box { -1, %g } } }", patch,
+                     clip ? "clipped_by" : "bounded_by", highs[i]);
+            assert_silent(text);
+            Scene *s = scene_of(text);
+            assert_int_equal(root(s, 0)->bounds.count, 1);
+            assert_int_equal(root(s, 0)->clips.count, 0);
+            const Object *box = &s->objects[root(s, 0)->bounds.items[0]];
+            assert_vec(box->shape.box.high, i ? 1 : 3, i ? 1 : 3, 1);
+        }
+    // Moved with what is around it, it forgets its bounds.
+    snprintf(text, sizeof text, "union { %s clipped_by { box { -1, 1 } } } translate x }", patch);
+    Scene *s = scene_of(text);
+    const Object *part = child(s, root(s, 0), 0);
+    assert_vec(s->objects[part->bounds.items[0]].shape.box.high, 4, 3, 1);
     assert_silent("sphere { 0, 1 bounded_by { box { -1, 1 } } }");
     assert_silent("sphere { 0, 1 clipped_by { plane { y, 0 } } bounded_by { clipped_by } }");
+    // Bounds of a tree stay, and keep a union whole; what a split union has at the top does not.
+    s = scene_of("union { sphere { 0, 1 } sphere { x, 1 } bounded_by { sphere { 0, 0.5 } } }"
+                 "union { sphere { 0, 1 } sphere { x, 1 } split_union off }"
+                 "union { sphere { 0, 1 } sphere { x, 1 } }");
+    assert_true(root(s, 0)->whole && root(s, 1)->whole && !root(s, 2)->whole);
+    assert_int_equal(root(s, 0)->bounds.count, 2); // its box and the sphere
+    assert_int_equal(root(s, 1)->bounds.count, 0);
     assert_warns("sphere { 0, 1 clipped_by { plane { y, 0 } julia_fractal { <1,0,0,0> } } }",
                  "'julia_fractal' is not modelled");
     snprintf(text, sizeof text, "sphere { 0, 1 bounded_by { %s } } }", patch);
@@ -439,6 +458,16 @@ static void extents_are_those_of_povray(void **state) {
         "merge { box { 0, 1 } sphere { 2, 0.5 } }",
         "intersection { box { 0, 1 } sphere { 0.9, 0.5 } }",
         "difference { box { 0, 1 } sphere { 0.9, 0.5 } }",
+        "difference { box { 0, 1 } sphere { 0.9, 0.5 } box { 0.2, 3 inverse } }",
+        "difference { box { 0, 1 inverse } sphere { 0.9, 0.5 } }",
+        "intersection { box { -1, 1 } plane { y, 0.3 } plane { -x, 0.2 } plane { x + y, 0.1 } }",
+        "intersection { box { -1, 1 } box { 0, 1 inverse } } ",
+        "intersection { box { -1, 1 } box { 2, 3 } }",
+        "intersection { union { box { -1, 1 } inverse } box { -4, 2 } inverse translate x }",
+        "sphere { 0, 1 clipped_by { box { 0, 2 } box { -1, 1 inverse } } }",
+        "plane { y, 1 clipped_by { box { 0, 2 inverse } } scale 2 }",
+        "object { bicubic_patch { type 1 " PATCH_POINTS " clipped_by { box { 0, 2 } } } rotate y }",
+        "union { bicubic_patch { type 1 " PATCH_POINTS " clipped_by { box { 0, 2 } } } scale 2 }",
         "sphere { 0, 1 clipped_by { box { 0, 2 } } }",
         "sphere { 0, 1 bounded_by { box { 0, 1 } } }",
         "sphere { 0, 1 bounded_by { box { -3, 3 } } }",

@@ -203,6 +203,7 @@ bool object_is_tree(const Object *object) {
     X(blob)                                                                                        \
     X(box)                                                                                         \
     X(boxed)                                                                                       \
+    X(bounded_by)                                                                                  \
     X(bozo)                                                                                        \
     X(brick)                                                                                       \
     X(brilliance)                                                                                  \
@@ -328,6 +329,7 @@ bool object_is_tree(const Object *object) {
     X(warp_toroidal)                                                                               \
     X(warp_turbulence)                                                                             \
     X(waves)                                                                                       \
+    X(whole_union)                                                                                 \
     X(wood)                                                                                        \
     X(wrinkles)
 
@@ -550,6 +552,8 @@ static void collect_objects(const Scene *scene, FeatureSet *set) {
         need(set, FEATURE_hollow, object->hollow);
         need(set, FEATURE_inverse, object->inverse);
         need(set, FEATURE_clipped_by, object->clips.count > 0);
+        need(set, FEATURE_bounded_by, object->bounds.count > 0);
+        need(set, FEATURE_whole_union, object->whole);
         need(set, FEATURE_double_illuminate, object->double_illuminate);
         need(set, FEATURE_uv_mapping, object->uv_mapping);
     }

@@ -548,11 +548,15 @@ typedef struct {
     uint32_t light_group;  // see Light.group; 0: none
     bool inverse;          // of leaves only: the inverse of a tree is lowered to that of its leaves
     bool uv_mapping;       // object level: all its textures are evaluated at (u, v, 0)
+    bool whole;            // of a union without clips: as one object, like other trees
     bool has_transform;
     Transform transform; // local to world, of types with a local space (object_has_space)
     // Hits, and the inside, are only where all of these objects are (their flags and textures do
     // not count). Not on patches: POV-Ray ignores it there.
     ObjectList clips;
+    // A ray sees the object only if it meets each of these objects too, or starts inside; the same
+    // for all that is in them. Nothing but their shapes counts.
+    ObjectList bounds;
     union {
         PatchShape patch;
         PlaneShape plane;

@@ -19,10 +19,10 @@
 
 // ---- objects --------------------------------------------------------------------------------
 
-static const char *const PATCH_KEYS[] = {"type",  "count",   "degree",  "points", "weights",
-                                         "basis", "knots_u", "knots_v", NULL};
-static const char *const TREE_KEYS[] = {"type", "children", "clipped_by", NULL};
-static const char *const OTHER_KEYS[] = {"type", "clipped_by", NULL};
+static const char *const PATCH_KEYS[] = {"type",  "count",   "degree",  "points",     "weights",
+                                         "basis", "knots_u", "knots_v", "bounded_by", NULL};
+static const char *const TREE_KEYS[] = {"type", "children", "clipped_by", "bounded_by", NULL};
+static const char *const OTHER_KEYS[] = {"type", "clipped_by", "bounded_by", NULL};
 
 // The type of the object; *any_degree for "bezier_patch".
 static ObjectType read_type(const Reader *r, const FieldPath *path, json_t *json,
@@ -80,6 +80,7 @@ static uint64_t count_objects(Reader *r, const FieldPath *up, const char *name, 
         ObjectType type = read_type(r, &path, item, &any_degree);
         json_t *children = json_object_get(item, "children");
         json_t *clips = json_object_get(item, "clipped_by");
+        json_t *bounds = json_object_get(item, "bounded_by");
         if (type != OBJECT_PATCH && json_object_get(item, "count"))
             path_die(r->file, &path, "unknown field 'count'");
         total += claim_count(r, &path, item);
@@ -87,6 +88,8 @@ static uint64_t count_objects(Reader *r, const FieldPath *up, const char *name, 
             total += count_objects(r, &path, "children", children, depth + 1);
         if (clips)
             total += count_objects(r, &path, "clipped_by", clips, depth + 1);
+        if (bounds)
+            total += count_objects(r, &path, "bounded_by", bounds, depth + 1);
     }
     return total;
 }
@@ -240,6 +243,11 @@ static uint32_t read_object(Reader *r, const FieldPath *path, json_t *json, uint
     json_t *clips = json_object_get(json, "clipped_by");
     if (clips)
         objects->clips.items = read_objects(r, path, "clipped_by", clips, &objects->clips.count);
+    json_t *bounds = json_object_get(json, "bounded_by");
+    if (bounds && count > 1)
+        path_die(r->file, path, "'bounded_by' of more than one patch: give each its own");
+    if (bounds)
+        objects->bounds.items = read_objects(r, path, "bounded_by", bounds, &objects->bounds.count);
     return count;
 }
 

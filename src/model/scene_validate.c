@@ -280,6 +280,8 @@ static void check_object(const Check *c, const FieldPath *path, const Object *ob
         check_transform(c, path, "transform", &object->transform);
     if (object->clips.count > 0 && object->type == OBJECT_PATCH)
         refuse(c, path, "a patch cannot have 'clipped_by': put it into a union that has");
+    if (object->whole && (object->type != OBJECT_UNION || object->clips.count > 0))
+        refuse(c, path, "'whole' is for unions without 'clipped_by'");
     check_shape(c, path, object);
 }
 
@@ -304,6 +306,9 @@ static void check_list(Check *c, const FieldPath *up, const char *name, const ui
                        object->shape.children.count, depth + 1);
         if (object->clips.count > 0)
             check_list(c, &path, "clipped_by", object->clips.items, object->clips.count, depth + 1);
+        if (object->bounds.count > 0)
+            check_list(c, &path, "bounded_by", object->bounds.items, object->bounds.count,
+                       depth + 1);
     }
 }
 

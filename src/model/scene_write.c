@@ -312,7 +312,7 @@ static void write_points(Writer *w, const PatchShape *patch) {
 
 // Could both be entries of one run, apart from the texture coordinates?
 static bool same_run(const Object *a, const Object *b) {
-    if (b->type != OBJECT_PATCH)
+    if (b->type != OBJECT_PATCH || b->bounds.count > 0)
         return false;
     const PatchShape *p = &a->shape.patch, *q = &b->shape.patch;
     if (p->degree_u != q->degree_u || p->degree_v != q->degree_v || q->weights)
@@ -405,6 +405,10 @@ static void write_object(Writer *w, const Object *object) {
         member(w, &state, "clipped_by");
         write_objects(w, object->clips.items, object->clips.count);
     }
+    if (object->bounds.count > 0) {
+        member(w, &state, "bounded_by");
+        write_objects(w, object->bounds.items, object->bounds.count);
+    }
     fputc('}', w->out);
 }
 
@@ -414,7 +418,8 @@ static void write_objects(Writer *w, const uint32_t *items, uint32_t count) {
     for (uint32_t i = 0; i < count;) {
         const Object *object = &w->scene->objects[items[i]];
         comma(w, &state);
-        if (w->binary && object->type == OBJECT_PATCH && !object->shape.patch.weights) {
+        if (w->binary && object->type == OBJECT_PATCH && !object->shape.patch.weights &&
+            !object->bounds.count) {
             i += write_run(w, &items[i], count - i);
         } else {
             write_object(w, object);

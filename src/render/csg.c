@@ -28,7 +28,7 @@ static Box widened(Box box) {
     double size = fmax(vec_length(box.low), vec_length(box.high));
     if (!isfinite(size))
         return box;
-    double by = 1e-6 * size;
+    double by = CSG_WIDER * size;
     return (Box){vec_sub(box.low, vec3(by, by, by)), vec_add(box.high, vec3(by, by, by))};
 }
 
@@ -135,35 +135,53 @@ static uint32_t make_node(Maker *maker, uint32_t index, uint32_t parent, bool fr
         die("objects[%u]: more than %d unions, merges and intersections inside each other", index,
             MAX_NESTING);
     maker->of_object[index] = NO_INDEX;
-    if (object->type == OBJECT_PATCH && !framed)
+    if (object->type == OBJECT_PATCH && !framed && object->bounds.count == 0)
         return NO_INDEX;
     uint32_t at = (uint32_t)maker->nodes.count;
     CsgNode node = {.object = object,
                     .parent = parent,
                     .next = NO_INDEX,
                     .first = NO_INDEX,
-                    .first_clip = NO_INDEX};
+                    .first_clip = NO_INDEX,
+                    .first_bound = NO_INDEX,
+                    .gate = NO_INDEX};
     array_push(&maker->nodes, node); // keeps the place: children come behind
     maker->of_object[index] = at;
     node.first_clip = make_list(maker, &object->clips, NO_INDEX, true, depth + 1);
     if (object_is_tree(object)) {
-        bool hides = framed || object->type != OBJECT_UNION || object->clips.count > 0;
+        bool hides = framed || object->type != OBJECT_UNION || object->clips.count > 0 ||
+                     object->bounds.count > 0;
         node.first = make_list(maker, &object->shape.children, at, hides, depth + 1);
         join_children(maker, &node);
     } else {
         make_leaf(maker, &node);
     }
     apply_clips(maker, &node);
+    if (csg_bounds_cut(maker->scene, &object->bounds, &node.reach))
+        node.first_bound = make_list(maker, &object->bounds, NO_INDEX, true, depth + 1);
     maker->nodes.items[at] = node;
     return at;
 }
 
-// A leaf is seen where it is and each tree around it may be. Parents stand before their children.
-static void narrow_reaches(Csg *csg) {
+// POV-Ray takes it apart into its children.
+static bool is_split(const Object *object) {
+    return object->type == OBJECT_UNION && object->clips.count == 0 && !object->whole;
+}
+
+// A leaf is seen where it is and each tree around it may be, through the bounds of all. Parents
+// stand before their children.
+static void hand_down(Csg *csg) {
     for (uint32_t n = 0; n < csg->count; n++) {
         CsgNode *node = &csg->nodes[n];
-        if (node->parent != NO_INDEX)
-            node->reach = box_common(node->reach, csg->nodes[node->parent].reach);
+        node->gate = node->first_bound != NO_INDEX ? n : NO_INDEX;
+        node->outermost = node->parent == NO_INDEX;
+        if (node->parent == NO_INDEX)
+            continue;
+        const CsgNode *parent = &csg->nodes[node->parent];
+        node->outermost = parent->outermost && is_split(parent->object);
+        node->reach = box_common(node->reach, parent->reach);
+        if (node->gate == NO_INDEX)
+            node->gate = parent->gate;
     }
 }
 
@@ -178,7 +196,7 @@ Csg csg_create(const Scene *scene, Arena *arena) {
         .count = (uint32_t)maker.nodes.count, .of_object = maker.of_object, .shared = maker.shared};
     csg.nodes = arena_copy(arena, maker.nodes.items, csg.count * sizeof(CsgNode));
     array_free(&maker.nodes);
-    narrow_reaches(&csg);
+    hand_down(&csg);
     return csg;
 }
 

@@ -16,11 +16,13 @@ typedef struct {
     const Shape *shape; // leaves, but patches
     uint32_t parent;    // this and the next three: nodes or NO_INDEX
     uint32_t next;      // sibling, also in a list of clips
-    uint32_t first, first_clip;
+    uint32_t first, first_clip, first_bound;
     uint32_t child_count, solid_count;
-    bool solid; // some point may be inside
-    Box inside; // holds all that are
-    Box reach;  // holds the surface as far as the trees around let it be seen
+    bool solid;     // some point may be inside
+    Box inside;     // holds all that are
+    Box reach;      // holds the surface as far as the trees around let it be seen
+    uint32_t gate;  // the innermost node with bounds, of it and those around; NO_INDEX: none
+    bool outermost; // it is what POV-Ray has as one object
 } CsgNode;
 
 typedef struct {
@@ -30,6 +32,10 @@ typedef struct {
     ShapeShared *shared;
 } Csg;
 
+// By what share of their size and distance boxes of nodes are widened: far above the rounding of
+// points and the slack of inside tests.
+#define CSG_WIDER 1e-6
+
 // Everything in arena. Dies when trees are nested too deeply.
 Csg csg_create(const Scene *scene, Arena *arena);
 // Is there anything that could hide hits of this leaf?
@@ -37,6 +43,11 @@ bool csg_is_watched(const Csg *csg, uint32_t node);
 // Does a hit of the leaf at p count?
 bool csg_keeps(const Csg *csg, uint32_t node, Vec3 p);
 bool csg_inside(const Csg *csg, uint32_t node, Vec3 p);
+// Does the ray, of unit direction, meet all that bounds the leaves with this gate? *entry: where it
+// comes into the box of POV-Ray's object, if that is one of the bounds; else -INFINITY.
+bool csg_admits(const Csg *csg, uint32_t gate, const Ray *ray, double *entry);
+// Could rays that meet the object within that reach miss its bounds?
+bool csg_bounds_cut(const Scene *scene, const ObjectList *bounds, const Box *reach);
 // Is p inside the leaf where the trees around let its inside be?
 bool csg_fills(const Csg *csg, uint32_t node, Vec3 p);
 

@@ -72,8 +72,14 @@ typedef struct {
     uint32_t kind;
     bool any; // the first hit ends it
     RayStats *stats;
-    // The nearest so far; before that t = t_max with a rank that nothing is below.
-    double t;
+    // The gate asked last, and the answer: leaves of one object follow one another.
+    uint32_t gate;
+    bool admits;
+    double entry; // where the ray comes into the box of that object
+    // The nearest so far; before that both are t_max, with a rank that nothing is below. POV-Ray
+    // comes to an object when nothing has been met before the box, even if it then meets it before
+    // the box: so the farther of the two is what decides.
+    double t, depth;
     uint32_t rank;
     const Leaf *leaf;
     const Prim *prim; // NULL: the hit is on a patch
@@ -81,14 +87,44 @@ typedef struct {
     PatchHit patch;
 } RayQuery;
 
-static bool counts(const RayQuery *query, double t, double t_min, const Leaf *leaf) {
-    return t >= t_min && (t < query->t || (t == query->t && leaf->rank < query->rank)) &&
-           (!leaf->watched || csg_keeps(&query->world->csg, leaf->node,
-                                        vec_madd(query->ray->org, t, query->ray->dir)));
+static bool is_admitted(RayQuery *query, const Leaf *leaf) {
+    if (leaf->gate == NO_INDEX) {
+        query->entry = -INFINITY;
+        query->gate = NO_INDEX;
+        return query->admits = true;
+    }
+    if (leaf->gate != query->gate) {
+        query->gate = leaf->gate;
+        query->admits = csg_admits(&query->world->csg, leaf->gate, query->ray, &query->entry);
+        if (!query->world->in_order)
+            query->entry = -INFINITY;
+    }
+    return query->admits;
 }
 
-static void keep(RayQuery *query, double t, const Leaf *leaf) {
+static bool comes_first(const RayQuery *query, double t, double depth, const Leaf *leaf) {
+    if (t != query->t)
+        return t < query->t;
+    return depth < query->depth || (depth == query->depth && leaf->rank < query->rank);
+}
+
+// *t: what decides.
+static bool counts(RayQuery *query, double depth, double t_min, const Leaf *leaf, double *t) {
+    *t = depth;
+    if (!(depth >= t_min && comes_first(query, depth, depth, leaf)))
+        return false;
+    if (!leaf->watched)
+        return true;
+    Vec3 p = vec_madd(query->ray->org, depth, query->ray->dir);
+    if (!csg_keeps(&query->world->csg, leaf->node, p) || !is_admitted(query, leaf))
+        return false;
+    *t = fmax(depth, query->entry);
+    return comes_first(query, *t, depth, leaf);
+}
+
+static void keep(RayQuery *query, double t, double depth, const Leaf *leaf) {
     query->t = t;
+    query->depth = depth;
     query->rank = leaf->rank;
     query->leaf = leaf;
 }
@@ -103,12 +139,14 @@ typedef struct {
 static double try_solid_hit(void *context, const ShapeHit *hit) {
     PrimQuery *at = context;
     RayQuery *query = at->query;
+    double t;
     at->any = true;
-    bool again = query->prim == at->prim && query->leaf == &at->prim->leaf && hit->t == query->t;
+    bool again =
+        query->prim == at->prim && query->leaf == &at->prim->leaf && hit->t == query->depth;
     if (again) {
         query->hit = *hit;
-    } else if (counts(query, hit->t, query->t_min, &at->prim->leaf)) {
-        keep(query, hit->t, &at->prim->leaf);
+    } else if (counts(query, hit->t, query->t_min, &at->prim->leaf, &t)) {
+        keep(query, t, hit->t, &at->prim->leaf);
         query->prim = at->prim;
         query->hit = *hit;
     }
@@ -124,16 +162,16 @@ static void try_solid(RayQuery *query, const Prim *prim) {
 
 // Most infinite objects are planes, which every ray asks.
 static inline void try_plane(RayQuery *query, const Prim *prim) {
-    double t;
+    double depth, t;
     query->stats->shape_tests++;
-    if (!plane_depth(&prim->shape.as.plane, query->ray, &t))
+    if (!plane_depth(&prim->shape.as.plane, query->ray, &depth))
         return;
     query->stats->shape_hits++;
-    if (!counts(query, t, query->t_min, &prim->leaf))
+    if (!counts(query, depth, query->t_min, &prim->leaf, &t))
         return;
-    keep(query, t, &prim->leaf);
+    keep(query, t, depth, &prim->leaf);
     query->prim = prim;
-    query->hit = (ShapeHit){.t = t};
+    query->hit = (ShapeHit){.t = depth};
 }
 
 static inline void try_prim(RayQuery *query, const Prim *prim) {
@@ -152,9 +190,10 @@ static inline void try_prim(RayQuery *query, const Prim *prim) {
     query->stats->shape_tests++;
     query->stats->shape_hits += count > 0;
     for (int i = count - 1; i >= 0; i--) {
-        if (!counts(query, hits[i].t, query->t_min, &prim->leaf))
+        double t;
+        if (!counts(query, hits[i].t, query->t_min, &prim->leaf, &t))
             continue;
-        keep(query, hits[i].t, &prim->leaf);
+        keep(query, t, hits[i].t, &prim->leaf);
         query->prim = prim;
         query->hit = hits[i];
     }
@@ -169,9 +208,10 @@ static inline double try_item(void *context, uint32_t place) {
 static void try_patch_hit(void *context, const PatchHit *hit) {
     RayQuery *query = context;
     const Leaf *leaf = &query->world->leaves[hit->id];
-    if (!counts(query, hit->t, query->patch_min, leaf))
+    double t;
+    if (!counts(query, hit->t, query->patch_min, leaf, &t))
         return;
-    keep(query, hit->t, leaf);
+    keep(query, t, hit->t, leaf);
     query->prim = NULL;
     query->patch = *hit;
 }
@@ -270,7 +310,10 @@ static inline void query_start(RayQuery *query, const World *world, const Ray *u
     query->t_min = near->shapes * length;
     query->patch_min = patch_least(world, near->patches * length);
     query->stats = stats;
-    query->t = t_max * length;
+    query->gate = NO_INDEX;
+    query->admits = true;
+    query->entry = -INFINITY;
+    query->t = query->depth = t_max * length;
     query->rank = 0;
     query->leaf = NULL;
     query->prim = NULL;
@@ -295,8 +338,8 @@ bool world_nearest(const World *world, const Ray *ray, WorldNear near, double t_
     try_patches(&query);
     if (!query.leaf)
         return false;
-    hit->t = query.t / length;
-    hit->p = vec_madd(unit.org, query.t, unit.dir);
+    hit->t = query.depth / length;
+    hit->p = vec_madd(unit.org, query.depth, unit.dir);
     hit->object = query.leaf->object;
     hit->texture_count = 0;
     if (query.prim) {

@@ -15,6 +15,7 @@ typedef struct {
     uint32_t rank;    // which of two hits at the same depth counts: the lower
     uint32_t mask;    // RayKind bits of the rays that see it
     uint32_t node;    // in the Csg; NO_INDEX: an unhidden patch
+    uint32_t gate;    // in the Csg: what bounds it, or NO_INDEX
     bool watched;     // its hits may be hidden
     double tolerance; // of a patch's hits, scene units
 } Leaf;
@@ -30,6 +31,7 @@ struct World {
     Leaf *leaves;
     uint32_t leaf_count;
     Csg csg;
+    bool in_order; // POV-Ray has enough objects to look at them box by box
     // In the tree's leaf order, then those that are in no box.
     Prim *prims;
     uint32_t tree_count, prim_count;

@@ -32,9 +32,12 @@ typedef struct {
     uint32_t blind;  // bits of the rays that some child around is hidden from
 } Place;
 
-static bool is_frame(const Object *object) {
+// Are its hits put on a stack of their own?
+static bool has_stack(const Object *object) {
     return object->type != OBJECT_UNION || object->clips.count > 0;
 }
+
+static bool is_frame(const Object *object) { return has_stack(object) || object->whole; }
 
 // Bits of the rays that pass by the object for its flags, where it stands.
 static uint32_t blind_to(const Scene *scene, const Object *object, const Place *place) {
@@ -72,7 +75,9 @@ static void add_object(Maker *maker, uint32_t index, Place place) {
                  .position = first,
                  .mask = RAY_ALL & ~place.blind,
                  .node = node,
+                 .gate = node == NO_INDEX ? NO_INDEX : world->csg.nodes[node].gate,
                  .watched = node != NO_INDEX && csg_is_watched(&world->csg, node)};
+    leaf.watched = leaf.watched || leaf.gate != NO_INDEX;
     array_push(&maker->leaves, leaf);
 }
 
@@ -107,7 +112,7 @@ static void rank_tree(World *world, uint32_t index, bool reversed, uint32_t *of_
     const ObjectList *list = &object->shape.children;
     for (uint32_t i = 0; i < list->count; i++)
         rank_tree(world, list->items[reversed ? list->count - 1 - i : i],
-                  is_frame(object) ? !reversed : reversed, of_object, next);
+                  has_stack(object) ? !reversed : reversed, of_object, next);
 }
 
 // Infinite objects come first at equal depth, then the order of the source.
@@ -116,6 +121,7 @@ static void rank_leaves(World *world, const Maker *maker, const Box *boxes) {
     uint32_t next = 0;
     Arena *scratch = arena_create();
     uint32_t *order = ARENA_ARRAY(scratch, uint32_t, world->scene->object_count);
+    world->in_order = frame_count + world->scene->light_count >= BOUNDING_THRESHOLD;
     for (size_t f = 0; f < frame_count; f++) {
         uint32_t first = maker->frames.items[f].first;
         uint32_t end = f + 1 < frame_count ? maker->frames.items[f + 1].first : world->leaf_count;
@@ -124,7 +130,7 @@ static void rank_leaves(World *world, const Maker *maker, const Box *boxes) {
             box = box_union(box, boxes[i]);
         Vec3 size = vec_sub(box.high, box.low);
         bool infinite = !is_bounded(&box) || size.x * size.y * size.z > INFINITE_VOLUME;
-        bool later = frame_count + world->scene->light_count >= BOUNDING_THRESHOLD && !infinite;
+        bool later = world->in_order && !infinite;
         rank_tree(world, maker->frames.items[f].object, true, order, &next);
         for (uint32_t i = first; i < end; i++)
             world->leaves[i].rank =

@@ -119,6 +119,12 @@ build/solids: $(SOLIDS_OBJ) $(OBJ)
 	@echo '  LD  $@'
 	@$(CC) -fopenmp -o $@ $^ -lcmocka $(LIBS)
 
+# Random trees of solids and patches against POV-Ray and an oracle.
+CSG_OBJ = $(patsubst %.c,build/%.o,$(wildcard tests/programs/csg_trees.c tests/csg_*.c tests/povray_pictures.c))
+build/csg_trees: $(CSG_OBJ) $(filter build/src/base/%,$(OBJ))
+	@echo '  LD  $@'
+	@$(CC) -fopenmp -o $@ $^ -lm
+
 # The programs under the sanitizers, for tests that run them; and the cmocka programs.
 build/test/pov2qi: build/test/converter/main.o $(TEST_OBJ) | build/test/$(IMAGE_LIB)
 	@echo '  LD  $@'
@@ -175,6 +181,12 @@ fuzz: deps
 solids: deps
 	@$(MAKE) --no-print-directory -j$$(nproc) build/solids
 	@QIPOV_SOLIDS=full build/solids
+
+# 1,000 random trees, and 1,000 with bounds: the table in tests/csg_trees.txt (two minutes).
+csg-trees: deps
+	@$(MAKE) --no-print-directory -j$$(nproc) build/qirender build/csg_trees
+	@{ build/csg_trees 1 1000 && build/csg_trees 1 1000 bounds; } >tests/csg_trees.txt; \
+	    status=$$?; cat tests/csg_trees.txt; exit $$status
 
 lint:
 	@tests/deps.sh $(LINT_PACKAGES)
@@ -262,6 +274,7 @@ stress: deps
 .PHONY: bench
 .PHONY: bench-parse
 .PHONY: clean
+.PHONY: csg-trees
 .PHONY: demo
 .PHONY: deps
 .PHONY: examples-pictures

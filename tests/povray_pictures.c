@@ -44,7 +44,7 @@ bool povray_render(const PovrayPictures *pictures, size_t count) {
 }
 
 // A binary PPM with 16 bits, high byte first.
-static bool read_ppm(FILE *file, const PovrayPictures *pictures) {
+static bool read_ppm(FILE *file, int want_width, int want_height, uint16_t *pixels) {
     int width = 0, height = 0, max = 0;
     char line[256];
     for (int have = -1; have < 2;) {
@@ -58,24 +58,29 @@ static bool read_ppm(FILE *file, const PovrayPictures *pictures) {
             return false;
         have++;
     }
-    if (width != pictures->width || height != pictures->height || max != 65535)
+    if (width != want_width || height != want_height || max != 65535)
         return false;
     for (size_t i = 0; i < (size_t)(width * height) * 3; i++) {
         int high = getc(file), low = getc(file);
         if (low == EOF)
             return false;
-        pictures->pixels[i] = (uint16_t)(high << 8 | low);
+        pixels[i] = (uint16_t)(high << 8 | low);
     }
     return true;
+}
+
+bool povray_read_ppm(const char *path, int width, int height, uint16_t *pixels) {
+    FILE *file = fopen(path, "rb");
+    if (!file)
+        return false;
+    bool ok = read_ppm(file, width, height, pixels);
+    fclose(file);
+    return ok;
 }
 
 const uint16_t *povray_read(PovrayPictures *pictures, size_t number) {
     char path[128];
     snprintf(path, sizeof path, "%s/job%zu.ppm", pictures->directory, number);
-    FILE *file = fopen(path, "rb");
-    if (!file)
-        return NULL;
-    bool ok = read_ppm(file, pictures);
-    fclose(file);
+    bool ok = povray_read_ppm(path, pictures->width, pictures->height, pictures->pixels);
     return ok ? pictures->pixels : NULL;
 }

@@ -23,5 +23,7 @@ bool povray_render(const PovrayPictures *pictures, size_t count);
 // Picture of job<number>.pov: rows from the top, r g b. Valid until the next call; NULL when
 // POV-Ray refused the scene (log<number> says why).
 const uint16_t *povray_read(PovrayPictures *pictures, size_t number);
+// A binary PPM of 16 bits and of that size into pixels. False: it is not there or not like that.
+bool povray_read_ppm(const char *path, int width, int height, uint16_t *pixels);
 
 #endif

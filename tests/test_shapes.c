@@ -13,6 +13,7 @@
 
 #include "base/rng.h"
 #include "shape/quartic.h"
+#include "shape/roots.h"
 #include "shape/shape.h"
 
 #include <string.h>
@@ -615,21 +616,48 @@ static void test_bounds_are_tight(void **state) {
     }
 }
 
+// Polynomials with known roots, in intervals of any place: each root that lies inside is found, and
+// no other.
+static void test_roots(void **state) {
+    (void)state;
+    Rng rng = {11};
+    for (int i = 0; i < 20000; i++) {
+        int n = 1 + (int)(rng_next(&rng) % 6), inside = 0, at = 0;
+        double want[6], c[7] = {rng_range(&rng, 0.5, 2.0)}, roots[6];
+        double low = rng_range(&rng, -3, 3), high = low + rng_range(&rng, 0.01, 4);
+        if (i % 4 == 0)
+            low = 0.0, high = 1.0;
+        for (int k = 0; k < n; k++) {
+            want[k] = (k > 0 ? want[k - 1] : rng_range(&rng, -4, 0)) + rng_range(&rng, 0.3, 2);
+            for (int j = k + 1; j >= 0; j--)
+                c[j] = (j > 0 ? c[j - 1] : 0.0) - want[k] * (j <= k ? c[j] : 0.0);
+            if (fabs(want[k] - low) < 1e-6 || fabs(want[k] - high) < 1e-6)
+                want[k] = INFINITY; // on the border
+        }
+        int count = roots_find(c, n, low, high, roots);
+        bool border = false;
+        for (int k = 0; k < n; k++)
+            border |= isinf(want[k]);
+        if (border)
+            continue;
+        for (int k = 0; k < n; k++)
+            inside += want[k] > low && want[k] < high;
+        assert_int_equal(count, inside);
+        for (int k = 0; k < n; k++)
+            if (want[k] > low && want[k] < high)
+                assert_true(fabs(roots[at++] - want[k]) < 1e-7);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_plane),
-        cmocka_unit_test(test_sphere),
-        cmocka_unit_test(test_box),
-        cmocka_unit_test(test_cylinder),
-        cmocka_unit_test(test_cone),
-        cmocka_unit_test(test_torus),
-        cmocka_unit_test(test_disc),
-        cmocka_unit_test(test_triangle),
-        cmocka_unit_test(test_uv),
-        cmocka_unit_test(test_depth_limits),
-        cmocka_unit_test(test_quartic_roots),
-        cmocka_unit_test(test_random_solids),
-        cmocka_unit_test(test_bounds_are_tight),
+        cmocka_unit_test(test_roots),         cmocka_unit_test(test_plane),
+        cmocka_unit_test(test_sphere),        cmocka_unit_test(test_box),
+        cmocka_unit_test(test_cylinder),      cmocka_unit_test(test_cone),
+        cmocka_unit_test(test_torus),         cmocka_unit_test(test_disc),
+        cmocka_unit_test(test_triangle),      cmocka_unit_test(test_uv),
+        cmocka_unit_test(test_depth_limits),  cmocka_unit_test(test_quartic_roots),
+        cmocka_unit_test(test_random_solids), cmocka_unit_test(test_bounds_are_tight),
     };
     return cmocka_run_group_tests_name("shapes", tests, create_arena, destroy_arena);
 }

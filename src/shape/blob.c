@@ -157,7 +157,13 @@ static double next_stretch(const Crossed *crossed, double from, double sum[5], b
 static void hits(const void *data, const Ray *ray, HitSink *sink) {
     const Blob *blob = data;
     // Depths are counted from the place nearest to the origin, which the parts are not far from.
-    Crossed crossed = {.blob = blob, .ray = ray, .origin = -vec_dot(ray->org, ray->dir)};
+    // Member by member: an initializer would clear the lists for every ray.
+    Crossed crossed;
+    crossed.blob = blob;
+    crossed.ray = ray;
+    crossed.origin = -vec_dot(ray->org, ray->dir);
+    crossed.count = 0;
+    crossed.all = false;
     double from = sink->near * sink->scale - crossed.origin;
     cross_parts(&crossed, from);
     for (;;) {

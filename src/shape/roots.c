@@ -74,9 +74,9 @@ static int between(const double *c, int n, double low, double high, const double
     return count;
 }
 
-// In Bernstein's form between 0 and 1 a polynomial lies between its least and largest coefficient:
-// of one sign, it has no root there. Few of those that are asked about have one.
-static bool has_none(const double *c, int n) {
+// In Bernstein's form between low and high a polynomial lies between its least and largest
+// coefficient: of one sign, it has no root there. Few of those that are asked about have one.
+static bool has_none(const double *c, int n, double low, double high) {
     static const double inverse_binomials[7][7] = {
         {1},
         {1, 1},
@@ -89,18 +89,35 @@ static bool has_none(const double *c, int n) {
     double b[7] = {0}, size = 0.0;
     if (n > 6)
         return false;
-    for (int i = 0; i <= n; i++) {
-        b[i] = c[i] * inverse_binomials[n][i];
-        size += fabs(c[i]);
+    if (low == 0.0 && high == 1.0) {
+        for (int i = 0; i <= n; i++) {
+            b[i] = c[i] * inverse_binomials[n][i];
+            size += fabs(c[i]);
+        }
+    } else {
+        // In the variable that runs from 0 to 1. The terms of all sums, and the polynomial itself,
+        // are within that of |low| + width with its coefficients' absolute values.
+        double width = high - low, reach = fabs(low) + width, power = 1.0;
+        for (int i = 0; i <= n; i++)
+            b[i] = c[i];
+        for (int k = 0; k < n; k++)
+            for (int i = n - 1; i >= k; i--)
+                b[i] += low * b[i + 1];
+        for (int i = 0; i <= n; i++, power *= width)
+            b[i] *= power * inverse_binomials[n][i];
+        for (int i = n; i >= 0; i--)
+            size = size * reach + fabs(c[i]);
     }
     for (int k = 1; k <= n; k++)
         for (int i = n; i >= k; i--)
             b[i] += b[i - 1];
-    // At most 2^n terms of up to `size` were added, each time with a rounding.
-    double least = 0x1p-42 * size, low = b[0], high = b[0];
-    for (int i = 1; i <= n; i++)
-        low = fmin(low, b[i]), high = fmax(high, b[i]);
-    return low > least || high < -least;
+    // At most 2^n terms of up to `size` were added, each with up to 4 n roundings.
+    double least = 0x1p-40 * size, lowest = b[0], highest = b[0];
+    for (int i = 1; i <= n; i++) {
+        lowest = b[i] < lowest ? b[i] : lowest;
+        highest = b[i] > highest ? b[i] : highest;
+    }
+    return lowest > least || highest < -least;
 }
 
 int roots_find(const double *c, int n, double low, double high, double *roots) {
@@ -110,7 +127,7 @@ int roots_find(const double *c, int n, double low, double high, double *roots) {
         n--;
     if (n == 0 || !(low <= high))
         return 0;
-    if (low == 0.0 && high == 1.0 && has_none(c, n))
+    if (has_none(c, n, low, high))
         return 0;
     // derived[k] has degree k.
     for (int i = 0; i <= n; i++)

@@ -16,6 +16,36 @@ static double value(const Super *s, Vec3 p) {
            pow(fabs(p.z), s->z) - 1.0;
 }
 
+// The three powers at a depth, and the value.
+typedef struct {
+    double x, y, z, value;
+    Vec3 p;
+} Terms;
+
+static Terms terms_at(const Super *s, const Ray *ray, double t) {
+    Vec3 p = vec_madd(ray->org, t, ray->dir);
+    Terms terms = {pow(fabs(p.x), s->inner), pow(fabs(p.y), s->inner), pow(fabs(p.z), s->z), 0, p};
+    terms.value = pow(terms.x + terms.y, s->outer) + terms.z - 1.0;
+    return terms;
+}
+
+// The least of a term between two depths. A piece ends on planes of symmetry but for rounding: what
+// is that near to one may be on it.
+static double least_term(double a, double at_a, double b, double at_b) {
+    if (fabs(at_a) < 1e-12 || fabs(at_b) < 1e-12)
+        return 0.0;
+    return a < b ? a : b;
+}
+
+// Between two depths of one piece each coordinate grows or shrinks, and so do the powers: is the
+// value surely of one sign there?
+static bool stays_off(const Super *s, const Terms *a, const Terms *b, bool above) {
+    if (!above)
+        return pow(fmax(a->x, b->x) + fmax(a->y, b->y), s->outer) + fmax(a->z, b->z) - 1.0 < -1e-9;
+    double x = least_term(a->x, a->p.x, b->x, b->p.x), y = least_term(a->y, a->p.y, b->y, b->p.y);
+    return pow(x + y, s->outer) + least_term(a->z, a->p.z, b->z, b->p.z) - 1.0 > 1e-9;
+}
+
 static double value_on(const Super *s, const Ray *ray, double t) {
     return value(s, vec_madd(ray->org, t, ray->dir));
 }
@@ -120,9 +150,16 @@ enum { STEPS = 12 };
 // A smooth piece; between steps that have one sign a bend towards the other is looked into.
 static void hits_piece(const Super *s, const Ray *ray, double low, double high, HitSink *sink) {
     double t[STEPS + 1], at[STEPS + 1];
+    Terms terms[STEPS + 1];
+    for (int i = 0; i <= STEPS; i += STEPS)
+        terms[i] = terms_at(s, ray, low + (high - low) * i / STEPS);
+    if ((terms[0].value < 0.0) == (terms[STEPS].value < 0.0) &&
+        stays_off(s, &terms[0], &terms[STEPS], terms[0].value >= 0.0))
+        return;
     for (int i = 0; i <= STEPS; i++) {
         t[i] = low + (high - low) * i / STEPS;
-        at[i] = value_on(s, ray, t[i]);
+        terms[i] = terms_at(s, ray, t[i]);
+        at[i] = terms[i].value;
     }
     for (int i = 0; i < STEPS; i++) {
         if ((at[i] < 0.0) == (at[i + 1] < 0.0)) {
@@ -130,7 +167,7 @@ static void hits_piece(const Super *s, const Ray *ray, double low, double high, 
             double before = i > 0 ? sign * at[i - 1] : INFINITY;
             double after = i + 2 <= STEPS ? sign * at[i + 2] : INFINITY;
             bool bends = sign * at[i] <= before && sign * at[i + 1] <= after;
-            if (!bends)
+            if (!bends || stays_off(s, &terms[i], &terms[i + 1], sign > 0.0))
                 continue;
             double turn = valley(s, ray, t[i], t[i + 1], sign), at_turn = value_on(s, ray, turn);
             put_crossing(s, ray, t[i], at[i], turn, at_turn, sink);

@@ -133,7 +133,10 @@ uint32_t fixture_texture(Fixture *f, const Layer *layers, uint32_t count) {
     return (uint32_t)f->textures.count - 1;
 }
 
+// The tests' own interiors name only what they are about; none of them is about dispersion.
 uint32_t fixture_interior(Fixture *f, Interior interior) {
+    interior.dispersion = 1.0f;
+    interior.dispersion_samples = 7;
     array_push(&f->interiors, interior);
     return (uint32_t)f->interiors.count - 1;
 }

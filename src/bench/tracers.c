@@ -19,6 +19,19 @@ long trace_set(const void *set, const Ray *rays, long count) {
     return hits;
 }
 
+long trace_set_packets(const void *set, const Ray *rays, long count) {
+    long hits = 0;
+    PatchHit hit[PATCH_PACKET];
+    bool found[PATCH_PACKET];
+    for (long first = 0; first < count; first += PATCH_PACKET) {
+        long some = count - first < PATCH_PACKET ? count - first : PATCH_PACKET;
+        patchset_intersect_many(set, rays + first, NULL, (size_t)some, NULL, found, hit);
+        for (long i = 0; i < some; i++)
+            hits += found[i];
+    }
+    return hits;
+}
+
 #if !EMBREE_HEADERS
 
 long trace_embree(const void *mesh, const Ray *rays, long count) {

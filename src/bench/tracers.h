@@ -11,7 +11,8 @@
 // Traces count rays for their nearest hits; returns how many hit.
 typedef long (*Tracer)(const void *scene, const Ray *rays, long count);
 
-long trace_set(const void *set, const Ray *rays, long count); // a PatchSet
+long trace_set(const void *set, const Ray *rays, long count);         // a PatchSet
+long trace_set_packets(const void *set, const Ray *rays, long count); // PATCH_PACKET at once
 // An EmbreeMesh; 0 without Embree.
 long trace_embree(const void *mesh, const Ray *rays, long count);
 long trace_embree_packets(const void *mesh, const Ray *rays, long count); // count: times 16

@@ -8,6 +8,8 @@
 #include "patch/walk.h"
 
 enum { NEWTON_STEPS = 6 }; // two, as a rule
+// Before them in single precision: as a rule one is enough for one step in double.
+enum { GUESS_STEPS = 1 };
 // Of the normal, a sine: pictures have 16 bits.
 static const double NEWTON_NORMAL_ERROR = 1e-6;
 // Below it the normal is taken from where the last step begins: rounding is not far.
@@ -110,7 +112,7 @@ static inline Newton newton_sharpen(Walk *walk, const Piece *piece, double u, do
                              .normal = vec_scale(n, 1.0 / area),
                              .bound = distance,
                              .id = ray->patch->def->id}};
-        if (!query_in_range(query, root.hit.t))
+        if (!walk_in_range(walk, root.hit.t))
             return NEWTON_TAKEN;
         if (query->kind == QUERY_ALL)
             root_set_errors(&root, m1, m2, det);

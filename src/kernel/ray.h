@@ -10,10 +10,12 @@ typedef struct {
     D4 origin, dir;             // tree space, where the ray enters the tree; |dir| = 1
     float start[4], inverse[4]; // the same in single precision, 1 / dir
     int near[3], far[3];        // which planes of a node are near: offsets in floats
-    float s_min, s_max;
-    float k;                // see leaf.h
-    double s_per_t, s_base; // s = t s_per_t - s_base
-    Vec3 unit;              // dir with its zeros kept
+    float s_min, s_max;         // s_max goes with the query's t_max,
+    float s_end;                // this one stays
+    float k;                    // see leaf.h
+    double s_per_t, s_base;     // s = t s_per_t - s_base
+    double t_per_s;
+    Vec3 unit; // dir with its zeros kept
 } KernelRay;
 
 typedef enum { RAY_MISSES, RAY_ENTERS, RAY_FAR } RayEntry;
@@ -30,9 +32,16 @@ static inline D4 d4_max(D4 a, D4 b) {
 }
 static inline D4 d4_abs(D4 a) { return (D4)((L4)a & INT64_MAX); }
 
+// What counts from t on is of no use; see walk_order for what counts. For the order t of a hit in a
+// leaf that begins at s = near, s_max is no less than near: ray_least(near) becomes near + TREE_PAD
+// / 2 here but for roundings of 2^-25 (|s_base| < 2^27) and, to float, 2^-23.
 static inline void ray_cut(KernelRay *ray, double t) {
     double s = t * ray->s_per_t - ray->s_base + (double)TREE_PAD;
     ray->s_max = (float)(s < 4.0 ? s : 4.0);
+}
+
+static inline double ray_least(const KernelRay *ray, float near) {
+    return ((double)near - 0.5 * (double)TREE_PAD + ray->s_base) * ray->t_per_s;
 }
 
 // The tree's own box is tested here, in double. Its sides are 4 TREE_PAD farther out, so what the
@@ -75,10 +84,12 @@ static inline RayEntry ray_begin(const Tree *tree, const Ray *ray, double t_min,
     entry *= length;
     out->origin = o + d4_all(entry) * out->dir;
     out->s_per_t = length * tree->scale;
+    out->t_per_s = 1.0 / out->s_per_t;
     out->s_base = entry;
     double s_min = t_min * out->s_per_t - entry - (double)TREE_PAD;
     out->s_min = (float)(s_min > -4.0 ? s_min : -4.0);
     ray_cut(out, t_max);
+    out->s_end = out->s_max;
     start_float = __builtin_convertvector(out->origin, F4);
     inverse_float = __builtin_convertvector(inverse * d4_all(length), F4);
     memcpy(out->start, &start_float, sizeof start_float);

@@ -108,7 +108,7 @@ typedef struct {
 static void take_qi(void *context, const QiHit *hit) {
     Fallback *f = context;
     const PatchRay *ray = &f->walk->ray;
-    if (!f->go_on || !query_in_range(f->walk->query, hit->t))
+    if (!f->go_on || !walk_in_range(f->walk, hit->t))
         return;
     Root root = {.hit = {hit->t, hit->u, hit->v, hit->normal, hit->bound, ray->patch->def->id}};
     Point p;
@@ -126,9 +126,9 @@ static bool search_qi(Walk *walk, BezierRect rect) {
     const PatchDef *def = ray->patch->def;
     Bezier patch;
     bezier_init(&patch, (int)def->degree_u, (int)def->degree_v, def->points);
-    // A little beyond t_max, so that the range does not end on a pole that a neighbour has reported
-    // just now: there the search would go down to the last bit.
-    double t_max = query->t_max + 16.0 * ray->patch->tolerance * ray->t_per_s;
+    // The whole range, whatever has been found in other pieces, and a little more: should it end on
+    // a pole the search would go down to the last bit.
+    double t_max = walk->t_limit + 16.0 * ray->patch->tolerance * ray->t_per_s;
     QiQuery ask = {query->ray, query->t_min, t_max, ray->patch->tolerance, rect};
     QiStats stats = {0};
     QiHit hit;

@@ -41,12 +41,16 @@ bool walk_take(Walk *walk, const Root *root) {
     if (query->kind == QUERY_ALL && was_seen(walk, root))
         return true;
     if (query->kind == QUERY_NEAREST) {
-        if (query->found && root->hit.t == query->t_max &&
+        double order = walk_order(walk, root->hit.t);
+        if (query->found && order == query->t_max &&
             (walk->patch > walk->best_patch ||
              (walk->patch == walk->best_patch && walk->piece >= walk->best_piece)))
             return true;
         walk->best_patch = walk->patch;
         walk->best_piece = walk->piece;
+        query_take(query, &root->hit);
+        query->t_max = order;
+        return true;
     }
     query_take(query, &root->hit);
     return !query_done(query);
@@ -62,5 +66,9 @@ void accel_query(const Accel *accel, Query *query) {
     Walk walk;
     walk.accel = accel;
     walk.query = query;
+    walk.t_limit = query->t_max;
+    walk.t_least = -INFINITY;
     kernels_chosen()->query(&walk);
+    if (query->kind == QUERY_NEAREST && query->found)
+        query->t_max = query->best.t;
 }

@@ -8,6 +8,7 @@
 #include "patch/accel.h"
 #include "patch/clipping.h"
 #include "patch/facets.h"
+#include "patch/kernels.h"
 #include "patch/newton.h"
 #include "patch/paper.h"
 #include "patch/query.h"
@@ -310,6 +311,56 @@ bool patchset_occluded(const PatchSet *set, const Ray *ray, double t_min, double
     ask(set, &query);
     add_stats(stats, &query);
     return query.found;
+}
+
+static PatchRange range_of(const PatchRange *ranges, size_t i) {
+    return ranges ? ranges[i] : (PatchRange){0.0, INFINITY, UINT32_MAX};
+}
+
+static void ask_packet(const PatchSet *set, const Packet *packet, PatchStats *stats, bool *found) {
+    PacketAnswer answer = {0, (1u << packet->count) - 1};
+    if (set->accel && !set->rational && !set->shift)
+        answer = kernels_chosen()->packet(packet);
+    if (stats)
+        stats->hits += (uint64_t)__builtin_popcount(answer.found);
+    for (int i = 0; i < packet->count; i++)
+        found[i] = answer.found >> i & 1;
+    for (unsigned left = answer.left; left; left &= left - 1) {
+        int i = __builtin_ctz(left);
+        const Ray *ray = &packet->rays[i];
+        PatchRange r = range_of(packet->ranges, (size_t)i);
+        found[i] =
+            packet->kind == QUERY_NEAREST
+                ? patchset_intersect(set, ray, r.t_min, r.t_max, r.mask, stats, &packet->hits[i])
+                : patchset_occluded(set, ray, r.t_min, r.t_max, r.mask, stats);
+    }
+}
+
+static void ask_many(const PatchSet *set, Packet *packet, size_t count, PatchStats *stats,
+                     bool *found) {
+    PatchStats unused = {0};
+    assert(set->committed);
+    packet->accel = set->accel;
+    packet->stats = stats ? stats : &unused;
+    for (size_t i = 0; i < count; i += PATCH_PACKET) {
+        packet->count = count - i < PATCH_PACKET ? (int)(count - i) : PATCH_PACKET;
+        ask_packet(set, packet, stats, found + i);
+        packet->rays += PATCH_PACKET;
+        packet->ranges += packet->ranges ? PATCH_PACKET : 0;
+        packet->hits += packet->hits ? PATCH_PACKET : 0;
+    }
+}
+
+void patchset_intersect_many(const PatchSet *set, const Ray *rays, const PatchRange *ranges,
+                             size_t count, PatchStats *stats, bool *found, PatchHit *hits) {
+    Packet packet = {.rays = rays, .ranges = ranges, .kind = QUERY_NEAREST, .hits = hits};
+    ask_many(set, &packet, count, stats, found);
+}
+
+void patchset_occluded_many(const PatchSet *set, const Ray *rays, const PatchRange *ranges,
+                            size_t count, PatchStats *stats, bool *found) {
+    Packet packet = {.rays = rays, .ranges = ranges, .kind = QUERY_ANY};
+    ask_many(set, &packet, count, stats, found);
 }
 
 void patchset_all(const PatchSet *set, const Ray *ray, double t_min, double t_max, uint32_t mask,

@@ -41,12 +41,6 @@ static inline bool query_done(const Query *query) {
     return query->kind == QUERY_ANY && query->found;
 }
 
-// Of the nearest hit's equals one is chosen by the taker.
-static inline bool query_in_range(const Query *query, double t) {
-    return t >= query->t_min && (t < query->t_max || (t == query->t_max && query->found &&
-                                                      query->kind == QUERY_NEAREST));
-}
-
 // Takes a hit whose t lies in the range.
 static inline void query_take(Query *query, const PatchHit *hit) {
     query->found = true;

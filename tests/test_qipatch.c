@@ -76,6 +76,54 @@ static void answers(void **state) {
     qipatch_release_scene(NULL);
 }
 
+// One by one and all at once: the same bits, whoever is left out.
+static void many_at_once(void **state) {
+    (void)state;
+    enum { N = 37 };
+    QipatchScene *scene = qipatch_new_scene(0);
+    QipatchRay rays[N];
+    QipatchHit hits[N];
+    bool occluded[N];
+    int valid[N], found = 0;
+    for (int i = 0; i < N; i++) {
+        rays[i] = down(0.04 * i - 0.1, 0.5);
+        rays[i].dir[0] = i % 5 == 0 ? 0.3 : -0.01;
+        rays[i].tnear = i % 7 == 0 ? 2.2 : 0;
+        rays[i].mask = i % 6 == 0 ? 3 : UINT32_MAX;
+        if (i % 4 == 1) { // leaves the second sheet
+            rays[i].org[2] = 1;
+            rays[i].tnear = 0;
+            rays[i].flags = QIPATCH_RAY_LEAVES;
+        }
+        valid[i] = i % 9 != 8 ? -1 : 0;
+    }
+    rays[8].org[0] = NAN; // and is left out
+    rays[10].dir[1] = INFINITY;
+    qipatch_intersectN(valid, scene, rays, N, hits);
+    qipatch_occludedN(valid, scene, rays, N, occluded);
+    for (int i = 0; i < N; i++) // before the commit
+        assert_true(hits[i].patchID == QIPATCH_INVALID_ID && !occluded[i]);
+    for (int i = 0; i < 3; i++) {
+        QipatchPatch patch = {1, 1, sheet(i), NULL, i == 2 ? 4u : 0u};
+        assert_int_equal(qipatch_attach_patch(scene, &patch, NULL), QIPATCH_OK);
+    }
+    assert_int_equal(qipatch_commit_scene(scene), QIPATCH_OK);
+    for (int all = 0; all < 2; all++) {
+        qipatch_intersectN(all ? NULL : valid, scene, rays, N, hits);
+        qipatch_occludedN(all ? NULL : valid, scene, rays, N, occluded);
+        for (int i = 0; i < N; i++) {
+            QipatchHit one = {.patchID = QIPATCH_INVALID_ID};
+            bool any = (all || valid[i]) && qipatch_intersect1(scene, &rays[i], &one);
+            assert_int_equal(one.patchID, hits[i].patchID);
+            assert_int_equal(any, occluded[i]);
+            assert_true(!any || memcmp(&one, &hits[i], offsetof(QipatchHit, patchID)) == 0);
+            found += any;
+        }
+    }
+    assert_true(found > N);
+    qipatch_release_scene(scene);
+}
+
 static void errors_are_returned(void **state) {
     (void)state;
     assert_null(qipatch_new_scene(2));
@@ -158,12 +206,13 @@ static void only_public_names(void **state) {
                                    "grep -v -e ' qipatch_' -e ' [.]gomp_' ; nm -g --defined-only "
                                    "build/libqipatch.a | grep -c ' T qipatch_'");
     assert_int_equal(status, 0);
-    assert_string_equal(log, "9\n");
+    assert_string_equal(log, "11\n");
 }
 
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(answers),
+        cmocka_unit_test(many_at_once),
         cmocka_unit_test(errors_are_returned),
         cmocka_unit_test(readme_example_runs),
         cmocka_unit_test(only_public_names),

@@ -159,6 +159,11 @@ static Ray ray_of(const QipatchRay *ray) {
                  vec3(ray->dir[0], ray->dir[1], ray->dir[2])};
 }
 
+static QipatchHit hit_of(const PatchHit *hit) {
+    return (QipatchHit){hit->t,     hit->u, hit->v, {hit->normal.x, hit->normal.y, hit->normal.z},
+                        hit->bound, hit->id};
+}
+
 bool qipatch_intersect1(const QipatchScene *scene, const QipatchRay *ray, QipatchHit *hit) {
     PatchHit found;
     Ray own = ray_of(ray);
@@ -171,9 +176,7 @@ bool qipatch_intersect1(const QipatchScene *scene, const QipatchRay *ray, Qipatc
     else
         any = patchset_intersect(scene->set, &own, ray->tnear, ray->tfar, ray->mask, NULL, &found);
     if (any)
-        *hit = (QipatchHit){found.t,     found.u,
-                            found.v,     {found.normal.x, found.normal.y, found.normal.z},
-                            found.bound, found.id};
+        *hit = hit_of(&found);
     return any;
 }
 
@@ -185,4 +188,60 @@ bool qipatch_occluded1(const QipatchScene *scene, const QipatchRay *ray) {
     if (ray->flags & QIPATCH_RAY_LEAVES)
         return patchset_intersect_leaving(scene->set, &own, ray->tfar, ray->mask, NULL, &hit);
     return patchset_occluded(scene->set, &own, ray->tnear, ray->tfar, ray->mask, NULL);
+}
+
+// ---- Many rays
+
+// A packet of those that can be asked together: the others have mask 0.
+typedef struct {
+    Ray rays[PATCH_PACKET];
+    PatchRange ranges[PATCH_PACKET];
+    size_t count;
+} Together;
+
+static bool is_valid(const int *valid, size_t i) { return !valid || valid[i]; }
+
+static void gather(const int *valid, const QipatchRay *rays, Together *out) {
+    for (size_t i = 0; i < out->count; i++) {
+        bool asked = is_valid(valid, i) && !(rays[i].flags & QIPATCH_RAY_LEAVES);
+        // What is left out may be no ray at all.
+        out->rays[i] = asked ? ray_of(&rays[i]) : (Ray){{0, 0, 0}, {0, 0, 1}};
+        out->ranges[i] =
+            asked ? (PatchRange){rays[i].tnear, rays[i].tfar, rays[i].mask} : (PatchRange){0, 0, 0};
+    }
+}
+
+void qipatch_intersectN(const int *valid, const QipatchScene *scene, const QipatchRay *rays,
+                        size_t N, QipatchHit *hits) {
+    for (size_t at = 0; at < N; at += PATCH_PACKET) {
+        Together some = {.count = N - at < PATCH_PACKET ? N - at : PATCH_PACKET};
+        bool found[PATCH_PACKET] = {false};
+        PatchHit best[PATCH_PACKET];
+        gather(valid ? valid + at : NULL, rays + at, &some);
+        if (scene && scene->committed)
+            patchset_intersect_many(scene->set, some.rays, some.ranges, some.count, NULL, found,
+                                    best);
+        for (size_t i = 0; i < some.count; i++) {
+            hits[at + i].patchID = QIPATCH_INVALID_ID;
+            if (found[i])
+                hits[at + i] = hit_of(&best[i]);
+            else if (is_valid(valid, at + i) && rays[at + i].flags & QIPATCH_RAY_LEAVES)
+                qipatch_intersect1(scene, &rays[at + i], &hits[at + i]);
+        }
+    }
+}
+
+void qipatch_occludedN(const int *valid, const QipatchScene *scene, const QipatchRay *rays,
+                       size_t N, bool *occluded) {
+    for (size_t at = 0; at < N; at += PATCH_PACKET) {
+        Together some = {.count = N - at < PATCH_PACKET ? N - at : PATCH_PACKET};
+        bool found[PATCH_PACKET] = {false};
+        gather(valid ? valid + at : NULL, rays + at, &some);
+        if (scene && scene->committed)
+            patchset_occluded_many(scene->set, some.rays, some.ranges, some.count, NULL, found);
+        for (size_t i = 0; i < some.count; i++)
+            occluded[at + i] =
+                found[i] || (is_valid(valid, at + i) && rays[at + i].flags & QIPATCH_RAY_LEAVES &&
+                             qipatch_occluded1(scene, &rays[at + i]));
+    }
 }

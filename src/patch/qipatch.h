@@ -87,6 +87,15 @@ bool qipatch_intersect1(const QipatchScene *scene, const QipatchRay *ray, Qipatc
 // Is there any?
 bool qipatch_occluded1(const QipatchScene *scene, const QipatchRay *ray);
 
+// The same for N rays, any number, in one call, to the last bit. Rays that follow each other 16 at
+// a time in the list, lie side by side and go the same way take half of the time to a quarter;
+// others no more than alone. Rays whose valid[i] is 0 are left out (found: false); valid NULL: none
+// is. hits[i] is as from qipatch_intersect1.
+void qipatch_intersectN(const int *valid, const QipatchScene *scene, const QipatchRay *rays,
+                        size_t N, QipatchHit *hits);
+void qipatch_occludedN(const int *valid, const QipatchScene *scene, const QipatchRay *rays,
+                       size_t N, bool *occluded);
+
 #ifdef __cplusplus
 }
 #endif

@@ -188,6 +188,11 @@ csg-trees: deps
 	@{ build/csg_trees 1 1000 && build/csg_trees 1 1000 bounds; } >tests/csg_trees.txt; \
 	    status=$$?; cat tests/csg_trees.txt; exit $$status
 
+# Real scenes of solids against POV-Ray: pictures and times, into the table.
+solids-pictures: deps
+	@$(MAKE) --no-print-directory -j$$(nproc) all
+	@tests/solids_pictures.sh >tests/solids_pictures.txt; status=$$?; cat tests/solids_pictures.txt; exit $$status
+
 lint:
 	@tests/deps.sh $(LINT_PACKAGES)
 	@tests/lint.sh
@@ -289,6 +294,7 @@ stress: deps
 .PHONY: report
 .PHONY: sheet
 .PHONY: solids
+.PHONY: solids-pictures
 .PHONY: stress
 .PHONY: test
 .PHONY: test-examples

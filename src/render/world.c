@@ -11,6 +11,11 @@ static const double PATCH_NEAREST = 1e-5;
 
 // ---- points ---------------------------------------------------------------------------------
 
+static bool box_has(const Box *box, Vec3 p) {
+    return p.x >= box->low.x && p.x <= box->high.x && p.y >= box->low.y && p.y <= box->high.y &&
+           p.z >= box->low.z && p.z <= box->high.z;
+}
+
 // The leaves that contain a point.
 typedef struct {
     const World *world;
@@ -50,7 +55,8 @@ uint32_t world_containing(const World *world, Vec3 p, uint32_t *objects, uint32_
     if (max == 0)
         return 0;
     for (uint32_t i = 0; i < world->boundless_count; i++)
-        query_prim(&query, &world->prims[world->boundless[i]]);
+        if (box_has(&world->boundless_boxes[i], p))
+            query_prim(&query, &world->prims[world->boundless[i]]);
     bvh_walk_point(&world->tree, p, query_item, &query);
     for (uint32_t i = 0; i < query.count; i++)
         objects[i] = world->leaves[objects[i]].object;

@@ -38,6 +38,7 @@ struct World {
     Bvh tree;
     // Prims with an inside that is not bounded by their box.
     uint32_t *boundless;
+    Box *boundless_boxes; // hold what they contain where the trees around let it be
     uint32_t boundless_count;
     PatchSet *patches;  // that nothing hides; id: leaf position
     bool exact;         // their hits carry bounds: not POV-Ray's triangles

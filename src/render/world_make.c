@@ -190,6 +190,16 @@ static const Shape *shape_of(const World *world, uint32_t leaf) {
     return node == NO_INDEX ? NULL : world->csg.nodes[node].shape;
 }
 
+// Where the leaf is inside, as far as the trees around can let that be.
+static Box fill_box(const Csg *csg, uint32_t node) {
+    Box box = csg->nodes[node].inside;
+    for (uint32_t t = csg->nodes[node].parent; t != NO_INDEX; t = csg->nodes[t].parent) {
+        box.low = vec_max(box.low, csg->nodes[t].inside.low);
+        box.high = vec_min(box.high, csg->nodes[t].inside.high);
+    }
+    return box;
+}
+
 // Puts the primitives in the tree's order, those without a box behind them. What cannot be seen is
 // left out.
 static void add_prims(World *world, const Box *boxes) {
@@ -212,6 +222,7 @@ static void add_prims(World *world, const Box *boxes) {
     world->tree = bvh_build(tree_boxes, bounded, world->arena);
     world->prims = ARENA_ARRAY(world->arena, Prim, count);
     world->boundless = ARENA_ARRAY(world->arena, uint32_t, count);
+    world->boundless_boxes = ARENA_ARRAY(world->arena, Box, count);
     world->tree_count = bounded;
     world->prim_count = count;
     for (uint32_t i = 0; i < count; i++) {
@@ -219,8 +230,11 @@ static void add_prims(World *world, const Box *boxes) {
         const Shape *shape = shape_of(world, leaf);
         world->prims[i] = (Prim){*shape, world->leaves[leaf]};
         bool in_tree = i < bounded && shape_inside_bounded(shape);
-        if (shape_has_inside(shape) && !in_tree)
+        if (shape_has_inside(shape) && !in_tree) {
+            world->boundless_boxes[world->boundless_count] =
+                fill_box(&world->csg, world->leaves[leaf].node);
             world->boundless[world->boundless_count++] = i;
+        }
     }
     arena_destroy(scratch);
 }

@@ -189,8 +189,39 @@ static void impossible_pictures(void **state) {
     arena_destroy(arena);
 }
 
+// What a hollow patch takes, prepared as the line says.
+static uint64_t memory_of(Arena *arena, const char *line) {
+    Scene *scene = ball(arena);
+    Vec3 *points = ARENA_ARRAY(arena, Vec3, 16);
+    for (int i = 0; i < 16; i++)
+        points[i] = vec3(i / 4 - 1.5, i % 4 - 1.5, i % 4 % 3 && i / 4 % 3 ? 2.0 : 0.0);
+    scene->objects[0].type = OBJECT_PATCH;
+    scene->objects[0].shape.patch =
+        (PatchShape){.degree_u = 3, .degree_v = 3, .points = points, .u_steps = 3, .v_steps = 3};
+    RenderOptions o = options_of(arena, line);
+    ImageWriteOptions write;
+    RenderStats stats = {0};
+    render_scene(scene, &o, arena, &write, &stats);
+    return stats.memory;
+}
+
+// Rays must be many to pay for a full preparation: of one patch, from 5,000 pixels on.
+static void prepares_by_the_work(void **state) {
+    (void)state;
+    Arena *arena = arena_create();
+    uint64_t light = memory_of(arena, "+W40 +H40 --prepare light");
+    uint64_t full = memory_of(arena, "+W40 +H40 --prepare full");
+    assert_true(light < full);
+    assert_int_equal(memory_of(arena, "+W40 +H40"), light);
+    assert_int_equal(memory_of(arena, "+W80 +H80"), full);
+    assert_int_equal(memory_of(arena, "+W80 +H80 +SR40 +ER50"), full); // the same for a part
+    assert_int_equal(memory_of(arena, "+W80 +H80 --prepare light"), light);
+    arena_destroy(arena);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(prepares_by_the_work),
         cmocka_unit_test(equal_to_the_reference),
         cmocka_unit_test(same_values_for_any_number_of_threads),
         cmocka_unit_test(an_area_without_pixels_is_black),

@@ -127,6 +127,7 @@ typedef struct {
     PatchMethod method;
     int finer;            // --finer: facets cuts the patches so many times more
     PatchPrepare prepare; // --prepare
+    bool prepare_given;   // else by the patches and pixels there are
     double tolerance;     // --tolerance, relative to the patch (PatchSetOptions)
     double pixels;        // the same in pixels, in place of it; 0: not given
     int pixel[2];         // --pixel: column and row from 0; -1: none

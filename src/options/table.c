@@ -362,6 +362,7 @@ static bool apply_accuracy(Parse *parse, const OptionRow *row, bool on, const ch
 
 static bool apply_prepare(Parse *parse, const OptionRow *row, bool on, const char *value) {
     (void)row, (void)on;
+    parse->options->prepare_given = true;
     return patch_prepare_parse(value, &parse->options->prepare) ||
            complain(parse, "the ways are full, light, none");
 }
@@ -531,7 +532,8 @@ const OptionRow option_rows[] = {
     {OPTION_SPECIAL, NULL, NULL, "pixel", "x,y", IN_QIRENDER, .apply = apply_pixel,
      .help = "instead of a picture, print how this pixel comes about: rays, hits, nets, lights"},
     {OPTION_SPECIAL, NULL, NULL, "prepare", "how", DRAWS, .apply = apply_prepare,
-     .help = "sub-patches for qi: full (default), light (few), none (the paper's; same hits)"},
+     .help =
+         "sub-patches for qi: full, light (few), none (the paper's); full or light by the work"},
     {OPTION_SPECIAL, NULL, NULL, "isa", "name", DRAWS, .apply = apply_isa,
      .help = "instruction set for qi: scalar, avx2, avx512 (the best there is; same pictures)"},
 

@@ -121,6 +121,21 @@ static PixelRect tile_at(const void *context, int i) {
     return t;
 }
 
+// Preparing a patch in full takes about 250 us more than lightly, and saves about 12 ns a ray
+// (lattices of teapots): that pays from 20,000 rays a patch on. A pixel is taken for four rays,
+// wherever it is in the picture and however many threads there are, so that parts of a picture have
+// the same bytes.
+static PatchPrepare prepare_of(const Scene *scene, const RenderOptions *o) {
+    const double rays_per_pixel = 4.0, rays_per_patch = 20000.0;
+    if (o->prepare_given)
+        return o->prepare;
+    uint32_t patches = 0;
+    for (uint32_t i = 0; i < scene->object_count; i++)
+        patches += scene->objects[i].type == OBJECT_PATCH;
+    double rays = rays_per_pixel * o->width * o->height;
+    return rays < rays_per_patch * patches ? PREPARE_LIGHT : PREPARE_FULL;
+}
+
 // What decides on the colours of a tile beside the scene.
 static uint64_t identity_of(const Scene *scene, const RenderOptions *o) {
     const double facts[] = {o->width,           o->height,          o->start_row,
@@ -129,7 +144,7 @@ static uint64_t identity_of(const Scene *scene, const RenderOptions *o) {
                             o->sampling_method, o->antialias_depth, o->jitter,
                             o->jitter_amount,   o->antialias_gamma, o->quality,
                             o->alpha,           o->method,          o->finer,
-                            o->tolerance,       o->pixels,          o->prepare};
+                            o->tolerance,       o->pixels,          prepare_of(scene, o)};
     return hash_bytes(scene_hash(scene), facts, sizeof facts);
 }
 
@@ -251,7 +266,7 @@ static PatchSetOptions patch_options(const Scene *scene, const RenderOptions *o,
     }
     patches.method = o->method;
     patches.tolerance = o->tolerance;
-    patches.prepare = o->prepare;
+    patches.prepare = prepare_of(scene, o);
     patches.finer = o->finer;
     return patches;
 }

@@ -143,7 +143,7 @@ const char *limit_hint(Converter *cv, Limit limit); // "(--limit NAME=... sets a
 void check_limits(Converter *cv, uint64_t work);
 // What is built from named parts (objects, maps of pigments, ...) may be nested without a brace in
 // the text being nested. Whoever walks it later calls itself for each level.
-enum { MAX_DEPTH = 1000 };
+enum { MAX_DEPTH = SCENE_MAX_DEPTH };
 void check_depth(Converter *cv, int depth, const char *what);
 
 // ---- value.c, symbol.c ------------------------------------------------------------------------

@@ -4,6 +4,7 @@
 #ifndef CONVERTER_EMIT_H
 #define CONVERTER_EMIT_H
 
+#include "base/hash.h"
 #include "converter/nodes.h"
 
 // Equal records are stored once: hashes of what is in a pool, with their indices.
@@ -73,15 +74,12 @@ void emit_gaps(Emitter *e, const Gap *gaps); // in the order in which they were 
 
 // ---- emit_pool.c -------------------------------------------------------------------------------
 
-// Hashes go over members, not structs, since the bytes between members may be anything.
-#define POOL_HASH_START 0xCBF29CE484222325u
-uint64_t pool_hash(uint64_t hash, const void *data, size_t size);
-// The record of that hash for which same(e, index, record) holds, or NO_INDEX; then *slot is where
-// it belongs.
+// Hashes (base/hash.h) go over members, not structs, since the bytes between members may be
+// anything. The number of the record of that hash for which same(e, number, record) holds. If there
+// is none it is the next number, and the record is to be added to the pool.
 typedef bool PoolSame(const Emitter *e, uint32_t index, const void *record);
-uint32_t pool_find(Emitter *e, InternTable *table, uint64_t hash, const void *record,
-                   PoolSame *same, size_t *slot);
-void pool_put(InternTable *table, size_t slot, uint64_t hash, uint32_t index);
+uint32_t pool_keep(Emitter *e, InternTable *table, uint64_t hash, const void *record,
+                   PoolSame *same);
 bool node_find(const NodeTable *table, const void *node, uint32_t *index);
 void node_put(Emitter *e, NodeTable *table, const void *node, uint32_t index);
 

@@ -74,16 +74,12 @@ static bool same_normal(const Emitter *e, uint32_t index, const void *record) {
 }
 
 static uint32_t store_normal(Emitter *e, const Normal *normal) {
-    uint64_t hash = pattern_hash(POOL_HASH_START, &normal->pattern);
-    hash = pool_hash(hash, &normal->amount, sizeof normal->amount);
-    hash = pool_hash(hash, normal->entries, normal->entry_count * sizeof *normal->entries);
-    size_t slot = 0;
-    uint32_t index = pool_find(e, &e->normal_table, hash, normal, same_normal, &slot);
-    if (index != NO_INDEX)
-        return index;
-    index = (uint32_t)e->normals.count;
-    array_push(&e->normals, *normal);
-    pool_put(&e->normal_table, slot, hash, index);
+    uint64_t hash = pattern_hash(HASH_START, &normal->pattern);
+    hash = hash_bytes(hash, &normal->amount, sizeof normal->amount);
+    hash = hash_bytes(hash, normal->entries, normal->entry_count * sizeof *normal->entries);
+    uint32_t index = pool_keep(e, &e->normal_table, hash, normal, same_normal);
+    if (index == e->normals.count)
+        array_push(&e->normals, *normal);
     return index;
 }
 

@@ -177,16 +177,16 @@ void emit_pattern(Emitter *e, const PatternNode *node, Pattern *pattern) {
 }
 
 uint64_t pattern_hash(uint64_t hash, const Pattern *p) {
-    hash = pool_hash(hash, &p->type, sizeof p->type);
-    hash = pool_hash(hash, &p->wave, sizeof p->wave);
+    hash = hash_bytes(hash, &p->type, sizeof p->type);
+    hash = hash_bytes(hash, &p->wave, sizeof p->wave);
     const float numbers[] = {p->frequency, p->phase, p->exponent};
-    hash = pool_hash(hash, numbers, sizeof numbers);
+    hash = hash_bytes(hash, numbers, sizeof numbers);
     const uint32_t uses[] = {p->picture, p->function, p->pigment, p->object, p->density};
-    hash = pool_hash(hash, uses, sizeof uses);
-    hash = pool_hash(hash, &p->turbulence.amount, sizeof p->turbulence.amount);
+    hash = hash_bytes(hash, uses, sizeof uses);
+    hash = hash_bytes(hash, &p->turbulence.amount, sizeof p->turbulence.amount);
     for (uint32_t i = 0; i < p->warp_count; i++)
         if (p->warps[i].type == WARP_TRANSFORM)
-            hash = pool_hash(hash, &p->warps[i].transform, sizeof p->warps[i].transform);
+            hash = hash_bytes(hash, &p->warps[i].transform, sizeof p->warps[i].transform);
     return hash;
 }
 
@@ -238,9 +238,9 @@ static void build_pigment(Emitter *e, const PatternNode *node, Pigment *pigment)
 // Field by field, since the padding of a struct may hold anything. What is left out here is rarely
 // the only difference; same_pigment looks at all.
 static uint64_t hash_pigment(const Pigment *p) {
-    uint64_t hash = pattern_hash(POOL_HASH_START, &p->pattern);
-    hash = pool_hash(hash, &p->color, sizeof p->color);
-    return pool_hash(hash, p->entries, p->entry_count * sizeof *p->entries);
+    uint64_t hash = pattern_hash(HASH_START, &p->pattern);
+    hash = hash_bytes(hash, &p->color, sizeof p->color);
+    return hash_bytes(hash, p->entries, p->entry_count * sizeof *p->entries);
 }
 
 static bool same_pigment(const Emitter *e, uint32_t index, const void *record) {
@@ -249,13 +249,9 @@ static bool same_pigment(const Emitter *e, uint32_t index, const void *record) {
 
 static uint32_t store_pigment(Emitter *e, const Pigment *pigment) {
     uint64_t hash = hash_pigment(pigment);
-    size_t slot = 0;
-    uint32_t index = pool_find(e, &e->pigment_table, hash, pigment, same_pigment, &slot);
-    if (index != NO_INDEX)
-        return index;
-    index = (uint32_t)e->pigments.count;
-    array_push(&e->pigments, *pigment);
-    pool_put(&e->pigment_table, slot, hash, index);
+    uint32_t index = pool_keep(e, &e->pigment_table, hash, pigment, same_pigment);
+    if (index == e->pigments.count)
+        array_push(&e->pigments, *pigment);
     return index;
 }
 

@@ -4,13 +4,6 @@
 
 #include <string.h>
 
-uint64_t pool_hash(uint64_t hash, const void *data, size_t size) {
-    const unsigned char *bytes = data;
-    for (size_t i = 0; i < size; i++)
-        hash = (hash ^ bytes[i]) * 0x100000001B3u; // FNV-1a
-    return hash;
-}
-
 static void intern_grow(Emitter *e, InternTable *table) {
     InternTable grown = {.capacity = table->capacity ? 2 * table->capacity : 64,
                          .count = table->count};
@@ -28,22 +21,17 @@ static void intern_grow(Emitter *e, InternTable *table) {
     *table = grown;
 }
 
-uint32_t pool_find(Emitter *e, InternTable *table, uint64_t hash, const void *record,
-                   PoolSame *same, size_t *slot) {
+uint32_t pool_keep(Emitter *e, InternTable *table, uint64_t hash, const void *record,
+                   PoolSame *same) {
     if (2 * (table->count + 1) > table->capacity)
         intern_grow(e, table);
     size_t mask = table->capacity - 1, at = hash & mask;
     for (; table->entries[at].index != NO_INDEX; at = (at + 1) & mask)
         if (table->entries[at].hash == hash && same(e, table->entries[at].index, record))
             return table->entries[at].index;
-    *slot = at;
-    return NO_INDEX;
-}
-
-void pool_put(InternTable *table, size_t slot, uint64_t hash, uint32_t index) {
-    table->entries[slot].hash = hash;
-    table->entries[slot].index = index;
-    table->count++;
+    table->entries[at].hash = hash;
+    table->entries[at].index = (uint32_t)table->count;
+    return (uint32_t)table->count++;
 }
 
 static size_t node_slot(const NodeTable *table, const void *node) {

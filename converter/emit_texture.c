@@ -24,15 +24,15 @@ static void build_layers(Emitter *e, const TextureNode *node, bool no_bump_scale
 }
 
 static uint64_t hash_texture(const Texture *texture) {
-    uint64_t hash = pattern_hash(POOL_HASH_START, &texture->pattern);
+    uint64_t hash = pattern_hash(HASH_START, &texture->pattern);
     for (uint32_t i = 0; i < texture->layer_count; i++) {
         const Layer *layer = &texture->layers[i];
-        hash = pool_hash(hash, &layer->pigment, sizeof layer->pigment);
-        hash = pool_hash(hash, &layer->normal, sizeof layer->normal);
-        hash = pool_hash(hash, &layer->finish.ambient, sizeof layer->finish.ambient);
-        hash = pool_hash(hash, &layer->finish.diffuse, sizeof layer->finish.diffuse);
+        hash = hash_bytes(hash, &layer->pigment, sizeof layer->pigment);
+        hash = hash_bytes(hash, &layer->normal, sizeof layer->normal);
+        hash = hash_bytes(hash, &layer->finish.ambient, sizeof layer->finish.ambient);
+        hash = hash_bytes(hash, &layer->finish.diffuse, sizeof layer->finish.diffuse);
     }
-    return pool_hash(hash, texture->entries, texture->entry_count * sizeof *texture->entries);
+    return hash_bytes(hash, texture->entries, texture->entry_count * sizeof *texture->entries);
 }
 
 static bool same_texture(const Emitter *e, uint32_t index, const void *record) {
@@ -41,13 +41,9 @@ static bool same_texture(const Emitter *e, uint32_t index, const void *record) {
 
 static uint32_t store_texture(Emitter *e, const Texture *texture) {
     uint64_t hash = hash_texture(texture);
-    size_t slot = 0;
-    uint32_t index = pool_find(e, &e->texture_table, hash, texture, same_texture, &slot);
-    if (index != NO_INDEX)
-        return index;
-    index = (uint32_t)e->textures.count;
-    array_push(&e->textures, *texture);
-    pool_put(&e->texture_table, slot, hash, index);
+    uint32_t index = pool_keep(e, &e->texture_table, hash, texture, same_texture);
+    if (index == e->textures.count)
+        array_push(&e->textures, *texture);
     return index;
 }
 

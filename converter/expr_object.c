@@ -22,10 +22,14 @@ static const ObjectNode *find_surface(const ObjectNode *object) {
     return found;
 }
 
+// A question about an object, in tokens' worth: a ray may go a long way through an isosurface.
+enum { QUESTION_WORK = 100 };
+
 // NULL: there is nothing to meet. Dies if it holds what is not modelled.
 static const Probe *probe_of(Converter *cv, const Token *name, const Token *what,
                              const ObjectNode *object) {
     const char *gap;
+    check_limits(cv, QUESTION_WORK);
     const Probe *probe = probing_object(cv, object, &gap);
     if (!probe && gap) {
         Loc loc = token_loc(cv, what);

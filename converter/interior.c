@@ -91,7 +91,7 @@ static void parse_scattering(Converter *cv) {
         const Token *token = peek_token(cv);
         if (!accept(cv, KW_eccentricity) && !accept(cv, KW_extinction))
             break;
-        if (token->code == KW_eccentricity && type < 5) {
+        if (token->code == KW_eccentricity && !(type >= 5 && type < 6)) {
             Loc loc = token_loc(cv, token);
             die_at(&loc, "Eccentricity cannot be used with this scattering type: only with 5");
         }

@@ -225,7 +225,7 @@ typedef struct Language {
     uint64_t read;     // tokens taken from frames
     uint64_t limits[LIMIT_COUNT];
     uint64_t work, started; // limits.c: work left before the clock is looked at
-    size_t max_bytes, stack_room;
+    size_t max_bytes, probe_bytes, stack_room;
     const char *stack_base;
     uint64_t serials;
     size_t includes, calls; // frames of each kind

@@ -73,7 +73,7 @@ void check_limits(Converter *cv, uint64_t work) {
         return;
     }
     l->work = 1024; // until the next look at the clock
-    if (arena_bytes(cv->arena) > l->max_bytes) {
+    if (arena_bytes(cv->arena) + l->probe_bytes > l->max_bytes) {
         Loc loc = last_loc(cv);
         die_at(&loc, "The scene needs too much memory: more than %llu MB while it is read %s",
                (unsigned long long)limit_of(cv, LIMIT_MEGABYTES), limit_hint(cv, LIMIT_MEGABYTES));

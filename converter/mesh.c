@@ -279,35 +279,49 @@ static void fill_indices(Converter *cv, MeshReader *r, bool uv, bool normals, co
         }
 }
 
-void parse_mesh2(Converter *cv, ObjectNode *object) {
-    MeshReader r = {0};
+// uv_indices { n V* } and normal_indices { n V* }, each once, and what is missing of them.
+static void parse_indices(Converter *cv, MeshReader *r, const Token *start) {
     bool uv = false, normals = false;
-    const Token *start = peek_token(cv);
     for (;;) {
         const Token *token = peek_token(cv);
-        if (accept(cv, KW_vertex_vectors) || accept(cv, KW_normal_vectors) ||
-            accept(cv, KW_uv_vectors)) {
-            parse_vectors(cv, &r, token);
-        } else if (accept(cv, KW_texture_list)) {
-            parse_textures(cv, &r);
-        } else if (accept(cv, KW_face_indices)) {
-            parse_faces(cv, &r);
-        } else if (accept(cv, KW_uv_indices)) {
-            parse_uv_indices(cv, &r, token);
-            uv = true;
-        } else if (accept(cv, KW_normal_indices)) {
-            parse_normal_indices(cv, &r, token);
-            normals = true;
-        } else if (accept(cv, KW_inside_vector)) {
-            r.inside = parse_vector(cv);
-        } else {
+        bool again = token->code == KW_uv_indices ? uv : normals;
+        if (!accept(cv, KW_uv_indices) && !accept(cv, KW_normal_indices))
             break;
+        if (again) {
+            Loc loc = token_loc(cv, token);
+            die_at(&loc, "Only one %s section is allowed in mesh2", token->text);
         }
+        if (token->code == KW_uv_indices)
+            parse_uv_indices(cv, r, token);
+        else
+            parse_normal_indices(cv, r, token);
+        *(token->code == KW_uv_indices ? &uv : &normals) = true;
     }
-    if (r.points.count == 0 || r.faces.count == 0) {
+    fill_indices(cv, r, uv, normals, start);
+}
+
+void parse_mesh2(Converter *cv, ObjectNode *object) {
+    MeshReader r = {0};
+    const Token *start = peek_token(cv), *token = start;
+    while (accept(cv, KW_vertex_vectors) || accept(cv, KW_normal_vectors) ||
+           accept(cv, KW_uv_vectors)) {
+        parse_vectors(cv, &r, token);
+        token = peek_token(cv);
+    }
+    if (accept(cv, KW_texture_list))
+        parse_textures(cv, &r);
+    if (r.points.count == 0) {
         Loc loc = token_loc(cv, start);
         die_at(&loc, "a mesh2 needs vertex_vectors and face_indices");
     }
-    fill_indices(cv, &r, uv, normals, start);
+    expect(cv, KW_face_indices, "mesh2");
+    parse_faces(cv, &r);
+    if (r.faces.count == 0) {
+        Loc loc = token_loc(cv, start);
+        die_at(&loc, "No triangles in triangle mesh");
+    }
+    parse_indices(cv, &r, start);
+    while (accept(cv, KW_inside_vector))
+        r.inside = parse_vector(cv);
     keep_mesh(cv, &r, object);
 }

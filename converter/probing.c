@@ -50,13 +50,21 @@ static ProbeEntry *entry_of(Converter *cv, const void *node, bool *made) {
     return entry;
 }
 
+// What the text asks about may take long to prepare, and much room: patches become triangles.
+static Probe *make_probe(Converter *cv, const Scene *scene) {
+    check_limits(cv, UINT64_MAX);
+    Probe *probe = probe_create(scene);
+    cv->language->probe_bytes += (size_t)probe_memory(probe);
+    return probe;
+}
+
 const Probe *probing_object(Converter *cv, const ObjectNode *object, const char **gap) {
     bool made;
     ProbeEntry *entry = entry_of(cv, object, &made);
     if (made) {
         const Scene *scene = emit_part(cv, object, NULL, NULL, &entry->gap);
         if (scene->root_count > 0)
-            entry->probe = probe_create(scene);
+            entry->probe = make_probe(cv, scene);
     }
     *gap = entry->gap;
     return entry->probe;
@@ -69,7 +77,7 @@ const Probe *probing_pigment(Converter *cv, const PatternNode *pigment, uint32_t
     if (made) {
         const Scene *scene = emit_part(cv, NULL, pigment, &entry->pigment, &entry->gap);
         if (!entry->gap)
-            entry->probe = probe_create(scene);
+            entry->probe = make_probe(cv, scene);
     }
     *gap = entry->gap;
     *index = entry->pigment;

@@ -36,14 +36,11 @@ static void parse_sphere(Converter *cv, ObjectNode *object) {
     object->object.inverse = radius < 0;
 }
 
-static double parse_radius(Converter *cv, const char *what) {
-    const Token *token = peek_token(cv);
-    double radius = parse_float(cv);
-    if (radius < 0) {
-        Loc loc = token_loc(cv, token);
-        die_at(&loc, "a radius of the %s is negative", what);
-    }
-    return radius;
+// Of what has such a number POV-Ray shows nothing, or some part that its bounding box leaves.
+static void ignore_shape(Converter *cv, ObjectNode *object, const Token *token, const char *why) {
+    Loc loc = token_loc(cv, token);
+    warn_at(&loc, "%s: it is ignored, POV-Ray shows a part of it or nothing", why);
+    object->ignored = true;
 }
 
 static void parse_box(Converter *cv, ObjectNode *object) {
@@ -81,22 +78,17 @@ static void parse_cone(Converter *cv, ObjectNode *object) {
     ConeShape *cone = &object->object.shape.cone;
     cone->base = parse_vector(cv);
     optional_comma(cv);
-    cone->base_radius = parse_radius(cv, "cone");
+    cone->base_radius = parse_float(cv);
     optional_comma(cv);
     cone->apex = parse_vector(cv);
     optional_comma(cv);
-    cone->apex_radius = parse_radius(cv, "cone");
+    cone->apex_radius = parse_float(cv);
     cone->open = accept(cv, KW_open);
     check_axis(cv, token, cone, "cone");
+    if (cone->base_radius < 0 || cone->apex_radius < 0)
+        ignore_shape(cv, object, token, "a radius of the cone is negative");
     if (fabs(cone->apex_radius - cone->base_radius) < EQUAL)
         object->object.type = OBJECT_CYLINDER;
-}
-
-// Of what has such a number POV-Ray shows nothing, or some part that its bounding box leaves.
-static void ignore_shape(Converter *cv, ObjectNode *object, const Token *token, const char *why) {
-    Loc loc = token_loc(cv, token);
-    warn_at(&loc, "%s: it is ignored, POV-Ray shows little or nothing of it", why);
-    object->ignored = true;
 }
 
 static void parse_torus(Converter *cv, ObjectNode *object) {

@@ -4,6 +4,8 @@
 // top, so looking up is one step and leaving a scope pops its own bindings.
 #include "converter/language.h"
 
+#include "base/hash.h"
+
 #include <string.h>
 
 typedef struct {
@@ -44,10 +46,8 @@ static Symbols *table_made(Converter *cv) {
 }
 
 static size_t hash_text(const char *text, size_t length) {
-    size_t h = 1469598103934665603u; // FNV-1a
-    for (size_t i = 0; i < length; i++)
-        h = (h ^ (unsigned char)text[i]) * 1099511628211u;
-    return h ^ (h >> 29);
+    uint64_t h = hash_bytes(HASH_START, text, length);
+    return (size_t)(h ^ (h >> 29));
 }
 
 static uint32_t *find_slot(Symbols *s, const char *text, size_t length) {

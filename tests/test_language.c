@@ -437,6 +437,14 @@ static void test_limits(void **state) {
         {LIMIT_STRING, 5, "#declare S = concat(\"abc\", \"def\")", "more than 5 bytes"},
         {LIMIT_STRING, 5, "#declare S = \"abcdef\"", "String too long"},
         {LIMIT_TOKENS, 100, "#for (I, 1, 1e6) #end", "more than 100 tokens were read"},
+        // A patch of 512 triangles for each question, all kept. Before: no limit saw them.
+        {LIMIT_MEGABYTES, 2,
+         "#declare P = bicubic_patch { type 1 u_steps 4 v_steps 4 0 x 2*x 3*x y x+y 2*x+y+z 3*x+y "
+         "2*y x+2*y 2*x+2*y 3*x+2*y 3*y x+3*y 2*x+3*y 3*(x+y) } "
+         "#for (I, 1, 200) #declare V = trace(P, x + y - 5*z, z); #declare P = object { P "
+         "translate "
+         "x / 1000 } #end",
+         "more than 2 MB"},
     };
     char path[256];
     snprintf(path, sizeof path, "%s/program.pov", folder);
@@ -453,7 +461,7 @@ static void test_limits(void **state) {
         free(message);
         options.limits[cases[i].limit] *= 100;
         if (cases[i].limit == LIMIT_SECONDS || cases[i].limit == LIMIT_INCLUDES ||
-            cases[i].value == 1 || cases[i].limit == LIMIT_TOKENS)
+            cases[i].value == 1 || cases[i].value == 2 || cases[i].limit == LIMIT_TOKENS)
             continue; // what has no end
         message = run_options(options);
         if (message)

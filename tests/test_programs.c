@@ -51,6 +51,11 @@ static const Bad BAD[] = {
     {"point with 1/0", PATCH_START FOUR FOUR FOUR "<0,0,0> <1,0,0> <2,0,0> <1/0,0,0> }\n", NULL, 1,
      "bad.pov:5:"},
     {"no camera is POV-Ray's camera", "sphere { 4*z, 1 pigment { rgb 1 } }\n", NULL, 0, ""},
+    // What can be read can be rendered. Before: more than 200 were refused.
+    {"a tree 900 deep",
+     CAMERA "#declare S = sphere { 0, 1 pigment { rgb 1 } }\n"
+            "#for (I, 1, 900) #declare S = difference { object { S } sphere { 9, 1 } } #end S\n",
+     "+W4 +H3", 0, ""},
     {"nothing to see", CAMERA, NULL, 1, "no objects"},
     {"only a sky", "sky_sphere { pigment { rgb 1 } }\n", NULL, 0, "no objects"},
     {"width 0", CAMERA, "+W0 +H12", 1, "must be at least 1"},

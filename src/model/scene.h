@@ -19,6 +19,10 @@
 
 #define NO_INDEX UINT32_MAX
 
+// Of unions, maps and the like inside one another: what walks them calls itself. jansson reads 2048
+// nested brackets.
+enum { SCENE_MAX_DEPTH = 1000 };
+
 // ---- settings -------------------------------------------------------------------------------
 
 // ORDER gamma_mode (names in scene_fields.c)

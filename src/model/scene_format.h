@@ -8,7 +8,6 @@
 enum {
     SCENE_VERSION = 1,
     SCENE_MAX_PATCHES_IN_TEXT = 10000, // with more, their points go to the side file
-    SCENE_MAX_DEPTH = 1000,            // of nested unions; jansson reads 2048 nested brackets
     SCENE_MAX_DEGREE = 16,
 };
 

@@ -52,6 +52,13 @@ Probe *probe_create(const Scene *scene) {
     return probe;
 }
 
+uint64_t probe_memory(const Probe *probe) {
+    uint64_t bytes = arena_bytes(probe->arena);
+    for (uint32_t i = 0; i < probe->scene->projection_count; i++)
+        bytes += world_memory(probe->bodies[i]);
+    return bytes + (probe->world ? world_memory(probe->world) : 0);
+}
+
 void probe_destroy(Probe *probe) {
     if (!probe)
         return;

@@ -12,6 +12,7 @@ typedef struct Probe Probe;
 // scene: valid, must outlive the probe; its first root is the object that is asked about.
 Probe *probe_create(const Scene *scene);
 void probe_destroy(Probe *probe);
+uint64_t probe_memory(const Probe *probe); // bytes
 
 // The nearest hit of the object, as POV-Ray's trace() has it: patches are POV-Ray's triangles here,
 // whatever renders them later, so that what a scene builds on the answer is the same. The normal is

@@ -6,9 +6,6 @@
 #include "base/array.h"
 #include "base/diag.h"
 
-// Below this nothing that walks the trees recursively can overflow its stack.
-enum { MAX_NESTING = 200 };
-
 static const Box EVERYWHERE = {{-INFINITY, -INFINITY, -INFINITY}, {INFINITY, INFINITY, INFINITY}};
 
 static Box box_common(Box a, Box b) {
@@ -131,9 +128,9 @@ static void apply_clips(const Maker *maker, CsgNode *node) {
 // framed: something around may hide hits.
 static uint32_t make_node(Maker *maker, uint32_t index, uint32_t parent, bool framed, int depth) {
     const Object *object = &maker->scene->objects[index];
-    if (depth > MAX_NESTING)
+    if (depth > SCENE_MAX_DEPTH)
         die("objects[%u]: more than %d unions, merges and intersections inside each other", index,
-            MAX_NESTING);
+            SCENE_MAX_DEPTH);
     maker->of_object[index] = NO_INDEX;
     if (object->type == OBJECT_PATCH && !framed && object->bounds.count == 0)
         return NO_INDEX;

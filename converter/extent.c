@@ -285,6 +285,17 @@ static bool bodies_cut(const ObjectNode *list) {
     return false;
 }
 
+// A disc's inside is the half space behind it, a height field's goes on below: out of their boxes,
+// to which POV-Ray keeps an intersection with them.
+static bool inside_leaves_box(const ObjectNode *node) {
+    if (!object_is_tree(&node->object))
+        return node->object.type == OBJECT_DISC || node->object.type == OBJECT_HEIGHT_FIELD;
+    for (const ObjectNode *child = node->first; child; child = child->next)
+        if (!is_flipped(child) && inside_leaves_box(child))
+            return true;
+    return false;
+}
+
 bool node_extent_cuts(const ObjectNode *node) {
     if (node->light)
         return false;
@@ -298,7 +309,7 @@ bool node_extent_cuts(const ObjectNode *node) {
         return true;
     bool all = node->keyword == KW_intersection || node->keyword == KW_difference;
     for (const ObjectNode *child = node->first; child; child = child->next)
-        if (all ? !is_flipped(child) && node_extent_cuts(child)
+        if (all ? !is_flipped(child) && (inside_leaves_box(child) || node_extent_cuts(child))
                 : is_flipped(child) || node_extent_cuts(child))
             return true;
     return false;

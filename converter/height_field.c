@@ -140,7 +140,7 @@ void parse_height_field(Converter *cv, ObjectNode *object) {
     HeightFieldShape *field = &object->object.shape.height_field;
     const Token *token = peek_token(cv);
     Picture source;
-    parse_image(cv, &source, false);
+    parse_image(cv, &source, false, PICTURE_IFF);
     const HeightMap *map = source.type == PICTURE_VALUES ? map_of_function(cv, &source, token)
                                                          : map_of_picture(cv, &source, token);
     for (;;) {

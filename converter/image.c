@@ -98,7 +98,7 @@ static void parse_premultiplied(Converter *cv) {
 }
 
 // [V] [TYPE] S [gamma F | gamma srgb] [premultiplied F]  |  function W, H { BODY }
-void parse_image(Converter *cv, Picture *picture, bool to_working) {
+void parse_image(Converter *cv, Picture *picture, bool to_working, PictureType refused) {
     *picture = picture_default();
     picture->to_working = to_working;
     picture->decode = usual_decode(cv, to_working);
@@ -115,6 +115,8 @@ void parse_image(Converter *cv, Picture *picture, bool to_working) {
         type = type_of_name(name);
     picture->path = find_image(cv, name, type, &loc);
     picture->type = file_types[type].type;
+    if (picture->type == refused)
+        die_at(&loc, "File type not supported here: '%s'", keyword_name(file_types[type].keyword));
     for (;;) {
         if (accept(cv, KW_gamma))
             parse_gamma(cv, picture);
@@ -256,7 +258,7 @@ const Picture *parse_image_block(Converter *cv, int keyword, float *amount) {
     const char *where = keyword_name(keyword);
     Picture picture;
     expect(cv, '{', where);
-    parse_image(cv, &picture, keyword == KW_image_map);
+    parse_image(cv, &picture, keyword == KW_image_map, PICTURE_POT);
     parse_image_options(cv, &picture, keyword == KW_bump_map ? amount : NULL);
     expect(cv, '}', where);
     return arena_copy(cv->arena, &picture, sizeof picture);

@@ -136,10 +136,10 @@ const MapNode *parse_pattern_list(Converter *cv, PatternUse use, const PatternIn
 const MapNode *map_create(Converter *cv, MapKind kind, const MapItem *items, uint32_t count);
 const MapNode *map_default(Converter *cv, const PatternInfo *info);
 // The block of image_map, bump_map, image_pattern; what height_field and material_map begin with.
-// amount: what bump_size sets. The picture has no path when a function makes it.
+// amount: what bump_size sets.
 const Picture *parse_image_block(Converter *cv, int keyword, float *amount);
-// to_working: its colours are meant, not numbers.
-void parse_image(Converter *cv, Picture *picture, bool to_working);
+// to_working: its colours are meant, not numbers. refused: the type that may not stand here.
+void parse_image(Converter *cv, Picture *picture, bool to_working, PictureType refused);
 // image_function.c: after the keyword `function`.
 void parse_image_function(Converter *cv, Picture *picture);
 void parse_image_options(Converter *cv, Picture *picture, float *amount); // amount may be NULL

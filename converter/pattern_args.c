@@ -117,7 +117,7 @@ static void parse_material_map(Converter *cv, PatternNode *pattern) {
     ARRAY(const TextureNode *) textures = {0};
     Picture picture;
     expect(cv, '{', "material_map");
-    parse_image(cv, &picture, false);
+    parse_image(cv, &picture, false, PICTURE_POT);
     parse_image_options(cv, &picture, NULL);
     picture.use = USE_PICTURE_INDEX;
     while (accept(cv, KW_texture)) {

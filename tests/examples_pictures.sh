@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 # Scenes as pictures: POV-Ray's against --method facets at 320x240, without anti-aliasing. Prints for
 # each the share of pixels that differ by more than one step of 8 bits; of scenes with crand or the
-# jitter of area lights, whose grain POV-Ray draws from what its threads have done before, also the
+# jitter of area lights and rainbows, whose grain POV-Ray draws from what its threads have done before, also the
 # share without them; and what is not modelled in it, if anything is.
 #   tests/examples_pictures.sh                      the scenes of tests/examples_pictures.txt
 #   tests/examples_pictures.sh FOLDER|SCENE...      those below the examples: lights camera/lens.pov;
@@ -21,7 +21,7 @@ program=${QIRENDER:-$PWD/build/qirender}
 kept=$PWD/build/examples-pictures
 mkdir -p "$kept"
 if [ $# -eq 0 ]; then
-    set -- textures/patterns textures/pigments textures/normals textures/finishes textures lights camera patches
+    set -- textures/patterns textures/pigments textures/normals textures/finishes textures lights camera interior patches
 fi
 if [ "${*: -1}" = patches ]; then
     set -- "${@:1:$#-1}" advanced/cliche/cliche.pov
@@ -69,7 +69,7 @@ without_grain() {
     mkdir -p "$to"
     for source in "$1"/*.inc "$1/$2"; do
         [ -f "$source" ] &&
-            sed -E 's/\bcrand[[:space:]]+[-+0-9.eE]+/crand 0/g; s/\bjitter\b//g' "$source" >"$to/${source##*/}"
+            sed -E 's/\bcrand[[:space:]]+[-+0-9.eE]+/crand 0/g; s/\bjitter\b([[:space:]]+[-+0-9.]+)?//g' "$source" >"$to/${source##*/}"
     done
     echo "$to"
 }

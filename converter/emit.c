@@ -356,6 +356,11 @@ static uint32_t emit_tree(Emitter *e, const ObjectNode *node, const Inherited *f
     bool union_alone = object.type == OBJECT_UNION && own->nested && !from->nested;
     object.whole = union_alone && !object.clips.count;
     object.no_shadow = object.no_shadow || (union_alone && throws_none(e, &object));
+    if (patch_solid_is_meant(e->cv, node)) {
+        object.solid = patch_solid_is_closed(node);
+        if (!object.solid)
+            emit_gap(e, node->loc, "union: these patches are not closed: they are no solid");
+    }
     return store_object(e, &object);
 }
 

@@ -321,6 +321,11 @@ void object_add_child(Converter *cv, ObjectNode *parent, ObjectNode *child);
 void object_unshare(Converter *cv, ObjectNode *object);
 void object_move(Converter *cv, ObjectNode *object, Move *move);
 void object_invert(Converter *cv, ObjectNode *object);
+// patch_solid.c, for --patch-solids: a union of patches with an interior; is it closed? Turns it
+// inside out; false: it is no solid.
+bool patch_solid_is_meant(const Converter *cv, const ObjectNode *object);
+bool patch_solid_is_closed(const ObjectNode *object);
+bool patch_solid_invert(const Converter *cv, ObjectNode *object);
 bool parse_photons_modifier(Converter *cv); // photons { ... } of an object or a light
 void parse_importance_block(Converter *cv); // radiosity { ... } of an object or of #default
 // All modifiers; dies if a rule that holds at the end is broken.

@@ -186,6 +186,8 @@ static void invert_csg(Converter *cv, ObjectNode *object) {
 }
 
 void object_invert(Converter *cv, ObjectNode *object) {
+    if (patch_solid_invert(cv, object))
+        return;
     if (keyword_is_csg(object->keyword)) {
         invert_csg(cv, object);
     } else if (object->keyword == KW_plane) {
@@ -224,7 +226,7 @@ static ObjectNode *parse_data(Converter *cv, const Token *token) {
     if (code != KW_light_group && (value = accept_value(cv, VALUE_OBJECT)))
         return object_copy(cv, value->node);
     ObjectNode *object = object_create(cv, code);
-    if (!object->modelled)
+    if (!object->modelled || cv->options->patch_solids)
         object->loc = keep_place(cv, token);
     if (code == KW_light_source)
         parse_light_data(cv, object);

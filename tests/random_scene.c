@@ -532,6 +532,11 @@ static uint32_t make_objects(Rng *rng, Arena *arena, Scene *scene, int depth, ui
             object.clips.count = make_objects(rng, arena, scene, depth + 1, &object.clips.items);
         if (!leaf && random_below(rng, 16) == 0)
             object.bounds.count = make_objects(rng, arena, scene, depth + 1, &object.bounds.items);
+        object.solid = type == OBJECT_UNION && random_bool(rng);
+        for (uint32_t k = 0; object.solid && k < object.shape.children.count; k++) {
+            ObjectType child = scene->objects[object.shape.children.items[k]].type;
+            object.solid = child == OBJECT_PATCH || child == OBJECT_UNION;
+        }
         object.whole = type == OBJECT_UNION && !object.clips.count && random_bool(rng);
         scene->objects[index] = object;
         (*items)[i] = index;

@@ -227,6 +227,7 @@ static const char *object_difference(const Object *a, const Object *b) {
     COMPARE(uint32_t, clips.count)
     COMPARE_ALL(a->clips.items, b->clips.items, a->clips.count)
     COMPARE(bool, whole)
+    COMPARE(bool, solid)
     COMPARE(uint32_t, bounds.count)
     COMPARE_ALL(a->bounds.items, b->bounds.items, a->bounds.count)
     const char *difference = transform_difference(&a->transform, &b->transform);

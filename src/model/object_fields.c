@@ -35,6 +35,7 @@ static const Field OBJECT_FIELDS[] = {
     BOOL(Object, inverse, "inverse"),
     BOOL(Object, double_illuminate, "double_illuminate"),
     BOOL(Object, uv_mapping, "uv_mapping"),
+    BOOL(Object, solid, "solid"),
     BOOL(Object, whole, "whole"),
     END,
 };

@@ -272,6 +272,7 @@ bool object_is_tree(const Object *object) {
     X(panoramic)                                                                                   \
     X(parallel_light)                                                                              \
     X(parametric)                                                                                  \
+    X(patch_solids)                                                                                \
     X(pattern_warp)                                                                                \
     X(pattern_wave)                                                                                \
     X(perspective)                                                                                 \
@@ -554,6 +555,7 @@ static void collect_objects(const Scene *scene, FeatureSet *set) {
         need(set, FEATURE_clipped_by, object->clips.count > 0);
         need(set, FEATURE_bounded_by, object->bounds.count > 0);
         need(set, FEATURE_whole_union, object->whole);
+        need(set, FEATURE_patch_solids, object->solid);
         need(set, FEATURE_double_illuminate, object->double_illuminate);
         need(set, FEATURE_uv_mapping, object->uv_mapping);
     }

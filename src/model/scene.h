@@ -550,8 +550,9 @@ typedef struct {
     bool no_shadow, no_image, no_reflection, hollow, double_illuminate;
     bool no_global_lights; // in a light_group: only its lights shine on it
     uint32_t light_group;  // see Light.group; 0: none
-    bool inverse;          // of leaves only: the inverse of a tree is lowered to that of its leaves
+    bool inverse;          // of leaves and solid unions: of other trees it is lowered to the leaves
     bool uv_mapping;       // object level: all its textures are evaluated at (u, v, 0)
+    bool solid;            // of a union of patches: they are closed, and have an inside
     bool whole;            // of a union without clips: as one object, like other trees
     bool has_transform;
     Transform transform; // local to world, of types with a local space (object_has_space)

@@ -285,6 +285,17 @@ static void check_object(const Check *c, const FieldPath *path, const Object *ob
     check_shape(c, path, object);
 }
 
+// What is below it has been checked.
+static void check_closed(const Check *c, const FieldPath *path, const Object *object) {
+    bool good = !object->solid || object->type == OBJECT_UNION;
+    for (uint32_t i = 0; good && object->solid && i < object->shape.children.count; i++) {
+        const Object *child = &c->scene->objects[object->shape.children.items[i]];
+        good = child->type == OBJECT_PATCH || child->type == OBJECT_UNION;
+    }
+    if (!good)
+        refuse(c, path, "'solid' is for unions of patches");
+}
+
 // A list of objects and all that hangs below it. Each object may be met once, so the walk ends even
 // if the lists lead back to themselves.
 static void check_list(Check *c, const FieldPath *up, const char *name, const uint32_t *items,
@@ -304,6 +315,7 @@ static void check_list(Check *c, const FieldPath *up, const char *name, const ui
         if (object_is_tree(object))
             check_list(c, &path, "children", object->shape.children.items,
                        object->shape.children.count, depth + 1);
+        check_closed(c, &path, object);
         if (object->clips.count > 0)
             check_list(c, &path, "clipped_by", object->clips.items, object->clips.count, depth + 1);
         if (object->bounds.count > 0)

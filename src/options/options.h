@@ -133,6 +133,7 @@ typedef struct {
     int pixel[2];         // --pixel: column and row from 0; -1: none
     unsigned aovs;        // --aov: bit 1 << AovKind each
     bool strict;
+    bool patch_solids; // closed unions of patches with an interior are solids
     bool binary;                                 // pov2qi
     bool check;                                  // pov2qi: read the scene, write nothing
     bool requires, json;                         // pov2qi: list what the scene needs, write nothing

@@ -567,6 +567,9 @@ const OptionRow option_rows[] = {
      .help = "likewise: without a window nothing waits"},
     {OPTION_FLAG, NULL, NULL, "strict", NULL, IN_ALL, FIELD(strict),
      .help = "what is not modelled is an error instead of a warning"},
+    {OPTION_FLAG, NULL, NULL, "patch-solids", NULL, IN_ALL, FIELD(patch_solids),
+     .help = "closed unions of patches that have an interior are solids in intersections and "
+             "differences; to POV-Ray patches have no inside"},
     {OPTION_SPECIAL, NULL, NULL, "allow-write", "folder", IN_ALL, .apply = apply_allow_write,
      .help = "files that the scene writes (#fopen, #write) may be made in this folder and those "
              "below it; without it a scene writes no files; may be repeated"},

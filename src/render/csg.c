@@ -34,6 +34,7 @@ static Box widened(Box box) {
 typedef struct {
     const Scene *scene;
     Arena *arena;
+    const PatchSetOptions *patches;
     ShapeShared *shared;
     uint32_t *of_object;
     ARRAY(CsgNode) nodes;
@@ -99,6 +100,13 @@ static void join_children(const Maker *maker, CsgNode *node) {
     node->solid = node->solid_count > 0 && (!all || node->solid_count == node->child_count);
 }
 
+// Also inverted it has its surface where it was.
+static void fill_patches(const Maker *maker, CsgNode *node) {
+    node->body = patch_solid_create(maker->scene, node->object, maker->patches, maker->arena);
+    node->solid = true;
+    node->inside = node->object->inverse ? EVERYWHERE : widened(patch_solid_bounds(node->body));
+}
+
 // POV-Ray keeps the box of a quadric within those of its clips, in the space of the quadric, though
 // the inside of some goes on out of theirs (below a height field): rays that miss it see nothing.
 static Box clipped_quadric(const Maker *maker, const CsgNode *node) {
@@ -150,6 +158,8 @@ static uint32_t make_node(Maker *maker, uint32_t index, uint32_t parent, bool fr
                      object->bounds.count > 0;
         node.first = make_list(maker, &object->shape.children, at, hides, depth + 1);
         join_children(maker, &node);
+        if (object->solid && framed)
+            fill_patches(maker, &node);
     } else {
         make_leaf(maker, &node);
     }
@@ -182,9 +192,10 @@ static void hand_down(Csg *csg) {
     }
 }
 
-Csg csg_create(const Scene *scene, Arena *arena) {
+Csg csg_create(const Scene *scene, const PatchSetOptions *patches, Arena *arena) {
     Maker maker = {.scene = scene,
                    .arena = arena,
+                   .patches = patches,
                    .shared = shape_shared_create(scene, arena),
                    .of_object = ARENA_ARRAY(arena, uint32_t, scene->object_count)};
     for (uint32_t i = 0; i < scene->root_count; i++)
@@ -195,6 +206,20 @@ Csg csg_create(const Scene *scene, Arena *arena) {
     array_free(&maker.nodes);
     hand_down(&csg);
     return csg;
+}
+
+void csg_destroy(Csg *csg) {
+    for (uint32_t n = 0; n < csg->count; n++)
+        if (csg->nodes[n].body)
+            patch_solid_destroy(csg->nodes[n].body);
+}
+
+uint64_t csg_memory(const Csg *csg) {
+    uint64_t bytes = 0;
+    for (uint32_t n = 0; n < csg->count; n++)
+        if (csg->nodes[n].body)
+            bytes += patch_solid_memory(csg->nodes[n].body);
+    return bytes;
 }
 
 // ---- points ---------------------------------------------------------------------------------
@@ -212,6 +237,8 @@ bool csg_inside(const Csg *csg, uint32_t index, Vec3 p) {
         return false;
     if (node->shape)
         return shape_inside(node->shape, p);
+    if (node->body)
+        return patch_solid_inside(node->body, p) != node->object->inverse;
     bool all = node->object->type == OBJECT_INTERSECTION;
     for (uint32_t c = node->first; c != NO_INDEX; c = csg->nodes[c].next)
         if (csg_inside(csg, c, p) != all)

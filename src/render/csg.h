@@ -9,11 +9,13 @@
 
 #include "base/arena.h"
 #include "model/scene.h"
+#include "render/patch_solid.h"
 #include "shape/shape.h"
 
 typedef struct {
     const Object *object;
     const Shape *shape; // leaves, but patches
+    PatchSolid *body;   // what the patches of a solid union enclose
     uint32_t parent;    // this and the next three: nodes or NO_INDEX
     uint32_t next;      // sibling, also in a list of clips
     uint32_t first, first_clip, first_bound;
@@ -37,7 +39,9 @@ typedef struct {
 #define CSG_WIDER 1e-6
 
 // Everything in arena. Dies when trees are nested too deeply.
-Csg csg_create(const Scene *scene, Arena *arena);
+Csg csg_create(const Scene *scene, const PatchSetOptions *patches, Arena *arena);
+void csg_destroy(Csg *csg);          // what is not in the arena
+uint64_t csg_memory(const Csg *csg); // of that, bytes
 // Is there anything that could hide hits of this leaf?
 bool csg_is_watched(const Csg *csg, uint32_t node);
 // Does a hit of the leaf at p count?

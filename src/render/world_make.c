@@ -244,7 +244,7 @@ World *world_create(const Scene *scene, const PatchSetOptions *patches) {
     World *world = ARENA_NEW(arena, World);
     world->arena = arena;
     world->scene = scene;
-    world->csg = csg_create(scene, arena);
+    world->csg = csg_create(scene, patches, arena);
     Maker maker = {.world = world};
     for (uint32_t i = 0; i < scene->root_count; i++)
         add_object(&maker, scene->roots[i], (Place){NO_INDEX, NO_INDEX, 0});
@@ -276,6 +276,7 @@ void world_destroy(World *world) {
         patchset_destroy(world->patches);
     if (world->filtered)
         patchset_destroy(world->filtered);
+    csg_destroy(&world->csg);
     arena_destroy(world->arena);
 }
 
@@ -285,5 +286,6 @@ uint64_t world_memory(const World *world) {
         bytes += patchset_memory(world->patches);
     if (world->filtered)
         bytes += patchset_memory(world->filtered);
+    bytes += csg_memory(&world->csg);
     return bytes;
 }

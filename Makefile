@@ -222,7 +222,7 @@ pages: all
 	@mkdir -p build/pages
 	@PAGES=build/pages tests/examples_pictures.sh patches
 examples-speed: all
-	@tests/examples_speed.sh
+	@tests/examples_speed.sh | tee tests/examples_speed.txt
 points: build/test/test_points
 	@POINTS_ROUNDS=34 build/test/test_points
 

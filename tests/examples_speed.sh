@@ -52,7 +52,8 @@ while read -r scene; do
         seconds "$scene" povray >>"$work/povray"
         seconds "$scene" "$program" >>"$work/ours"
     done
-    awk -v scene="${scene#"$from"/}" -v p="$(median <"$work/povray")" -v q="$(median <"$work/ours")" \
+    name=${scene#"$from"/}
+    awk -v scene="${name##*/corpus/}" -v p="$(median <"$work/povray")" -v q="$(median <"$work/ours")" \
         'BEGIN { printf "%-40s %8.3f %8.3f %6.2f\n", scene, p, q, (q > 0 ? p / q : 0) }'
 done < <(scenes "$@") | tee "$work/table"
 sort -k4 -n "$work/table" | awk '{ r[NR] = $4 } END { if (NR) printf "median ratio %.2f, least %.2f, most %.2f, %d scenes\n",

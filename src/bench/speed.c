@@ -319,19 +319,29 @@ void speed_picture(const SpeedOptions *o) {
 // ---- Lattices, threads
 
 void speed_lattices(const SpeedOptions *o) {
-    static const size_t sizes[] = {32, 1000, 32000, 1000000};
-    printf("| patches | preparation, s | of the clock, %d threads, s | memory, MB | scattered rays "
+    static const struct {
+        size_t size;
+        PatchPrepare prepare;
+    } rows[] = {{32, PREPARE_FULL},
+                {1000, PREPARE_FULL},
+                {32000, PREPARE_FULL},
+                {1000000, PREPARE_FULL},
+                {1000000, PREPARE_LIGHT}};
+    printf("| patches | prepared | preparation, s | of the clock, %d threads, s | memory, MB | "
+           "scattered rays "
            "that hit | "
-           "ns a ray |\n|---|---|---|---|---|---|\n",
+           "ns a ray |\n|---|---|---|---|---|---|---|\n",
            omp_get_num_procs());
-    for (int i = 0; i < 4; i++) {
-        if (sizes[i] > o->max_patches)
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        const size_t size = rows[i].size;
+        const PatchPrepare how = o->prepare ? (PatchPrepare)o->prepare : rows[i].prepare;
+        if (size > o->max_patches)
             continue;
         Arena *arena = arena_create();
-        const Vec3 *points = lattice_points(arena, sizes[i]);
-        const Ray *rays = view_rays(arena, VIEW_SCATTERED, points_bounds(points, 16 * sizes[i]));
+        const Vec3 *points = lattice_points(arena, size);
+        const Ray *rays = view_rays(arena, VIEW_SCATTERED, points_bounds(points, 16 * size));
         double start = process_seconds(), clock = progress_seconds();
-        PatchSet *set = committed(points, sizes[i], METHOD_QI, (PatchPrepare)o->prepare, 1e-9);
+        PatchSet *set = committed(points, size, METHOD_QI, how, 1e-9);
         double prepare = process_seconds() - start;
         clock = progress_seconds() - clock;
         double used[MAX_ROUNDS];
@@ -341,9 +351,9 @@ void speed_lattices(const SpeedOptions *o) {
             hits = trace_set(set, rays, VIEW_RAYS);
             used[round] = process_seconds() - start;
         }
-        printf("| %zu | %.3f | %.3f | %.1f | %.1f %% | %.0f |\n", sizes[i], prepare, clock,
-               (double)patchset_memory(set) * 1e-6, 100.0 * (double)hits / VIEW_RAYS,
-               1e9 * median(used, o->rounds) / VIEW_RAYS);
+        printf("| %zu | %s | %.3f | %.3f | %.1f | %.1f %% | %.0f |\n", size,
+               patch_prepare_name(how), prepare, clock, (double)patchset_memory(set) * 1e-6,
+               100.0 * (double)hits / VIEW_RAYS, 1e9 * median(used, o->rounds) / VIEW_RAYS);
         patchset_destroy(set);
         arena_destroy(arena);
     }

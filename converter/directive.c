@@ -109,6 +109,8 @@ static void run_undef(Converter *cv) {
 static void run_include(Converter *cv, const Token *word) {
     const Token *at = peek_token(cv);
     Loc loc = token_loc(cv, at);
+    if (at->code == TOK_IDENTIFIER && peek_value_type(cv) == VALUE_NONE)
+        die_at(&loc, "The name of an include file stands in quotes: \"%s...\"", at->text);
     const char *name = parse_file_name(cv);
     (void)word;
     push_file(cv, source_open(cv, name, FILE_INCLUDE, &loc), at);

@@ -125,7 +125,11 @@ void call_macro(Converter *cv, const Token *name, const Macro *macro) {
         arguments[i] = (Argument){.reference.outermost = level};
         read_argument(cv, macro, i, &arguments[i]);
     }
-    expect(cv, ')', name_text(cv, macro->name));
+    if (!accept(cv, ')'))
+        die_expected(cv,
+                     arena_printf(cv->arena, "')' behind the %zu argument%s of macro '%s'",
+                                  macro->parameter_count, macro->parameter_count == 1 ? "" : "s",
+                                  name_text(cv, macro->name)));
     push_macro(cv, macro, name);
     for (size_t i = 0; i < macro->parameter_count; i++)
         bind_argument(cv, macro->parameters[i], &arguments[i]);

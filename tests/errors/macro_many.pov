@@ -1,3 +1,3 @@
-// 3:5 expected ')' in 'M'
+// 3:5 Expected ')' behind the 1 argument of macro 'M'
 #macro M(A) #end
 M(1 2)

@@ -15,7 +15,7 @@
 #include <string.h>
 
 static const double TRUTH = 1e-14;
-enum { FIRST_STEPS = 2, LAST_STEPS = 7 };
+enum { FIRST_STEPS = 2, LAST_STEPS = 8, EDGE_RAYS = 20000 };
 
 SweepOptions sweep_options_default(void) {
     return (SweepOptions){
@@ -29,6 +29,9 @@ const char *sweep_point_name(const SweepPoint *p, Arena *arena) {
         return arena_printf(
             arena, p->flatness > 0.0 ? "facets u_steps %d flatness %g" : "facets u_steps %d",
             p->steps, p->flatness);
+    if (p->prepare != PREPARE_FULL)
+        return arena_printf(arena, "%s prepared %s %g", patch_method_name(p->method),
+                            patch_prepare_name(p->prepare), p->tolerance);
     return arena_printf(arena, "%s %g", patch_method_name(p->method), p->tolerance);
 }
 
@@ -51,16 +54,23 @@ static MeasuredList choose_points(const SweepOptions *o) {
     static const PatchMethod methods[] = {METHOD_QI, METHOD_CLIPPING, METHOD_NEWTON,
                                           METHOD_TESSELLATION, METHOD_QI_PAPER};
     static const double tolerances[] = {1e-3, 1e-6, 1e-9, 1e-12};
+    // Triangles for 1e-6 would be millions, and single precision does not keep it.
+    static const double coarser[] = {1e-3, 1e-4};
     MeasuredList list = {0};
     for (size_t m = 0; m < sizeof methods / sizeof *methods; m++) {
-        // Single precision ends there.
         bool coarse = methods[m] == METHOD_TESSELLATION;
         if (coarse && embree_missing())
             continue;
         for (int t = 0; t < (coarse ? 2 : 4); t++)
-            add_point(&list,
-                      (SweepPoint){.method = methods[m], .tolerance = tolerances[t], .steps = -1});
+            add_point(&list, (SweepPoint){.method = methods[m],
+                                          .tolerance = coarse ? coarser[t] : tolerances[t],
+                                          .steps = -1});
     }
+    for (int p = PREPARE_LIGHT; p < PREPARE_COUNT; p++)
+        for (int t = 0; t < 4; t++)
+            add_point(
+                &list,
+                (SweepPoint){.prepare = (PatchPrepare)p, .tolerance = tolerances[t], .steps = -1});
     for (int steps = FIRST_STEPS; steps <= LAST_STEPS; steps++)
         add_point(&list, (SweepPoint){.method = METHOD_FACETS, .tolerance = 1e-9, .steps = steps});
     for (double flatness = 1.0; flatness > 0.5e-4; flatness *= 0.1)
@@ -93,6 +103,7 @@ typedef struct {
     Footprint footprint;
     double *diameter; // of each object's patch, 0: no patch
     Image *truth_picture;
+    EdgeRays edges;
 } Judge;
 
 static double *find_diameters(const Scene *scene, Arena *arena) {
@@ -125,8 +136,8 @@ static void judge_picture(const Judge *judge, const Image *picture, SweepResult 
 }
 
 // How far apart two hits on one ray are across the surface, and the angle of their normals.
-static double distance_of(const SweepLook *truth, const SweepLook *look, Vec3 dir) {
-    return fabs(look->t - truth->t) * fabs(vec_dot(dir, truth->normal));
+static double distance_of(const SweepLook *truth, const SweepLook *look) {
+    return fabs(look->t - truth->t) * fabs(vec_dot(truth->dir, truth->normal));
 }
 
 static double angle_of(const SweepLook *truth, const SweepLook *look) {
@@ -134,23 +145,33 @@ static double angle_of(const SweepLook *truth, const SweepLook *look) {
     return atan2(vec_length(across), vec_dot(truth->normal, look->normal)) * 180.0 / M_PI;
 }
 
-// Rays through the middles of the pixels, as sweep_child.c has them.
-static Vec3 *find_dirs(const Scene *scene, const SweepOptions *o, Arena *arena) {
-    Camera smooth = scene->camera;
-    smooth.has_normal = false;
-    const CameraView view = camera_view(&smooth, NULL, o->width, o->height);
-    Vec3 *dirs = ARENA_ARRAY(arena, Vec3, (size_t)o->width * (size_t)o->height);
-    for (int y = 0; y < o->height; y++)
-        for (int x = 0; x < o->width; x++) {
-            Ray ray;
-            if (camera_ray(&view, x, y, &ray))
-                dirs[(size_t)y * (size_t)o->width + (size_t)x] = ray.dir;
+// The truth around a pixel is one surface without a step, and the ray went far through it.
+static bool is_hole(const Judge *judge, const SweepShared *shared, size_t at) {
+    const SweepLook *truth = &judge->truth->looks[at];
+    double diameter = truth->object != NO_INDEX ? judge->diameter[truth->object] : 0.0;
+    double step = 0.1 * diameter;
+    if (!(diameter > 0.0) || !(shared->looks[at].t > truth->t + step))
+        return false;
+    for (int y = -1; y <= 1; y++)
+        for (int x = -1; x <= 1; x++) {
+            const SweepLook *near = truth + (ptrdiff_t)y * judge->options->width + x;
+            if (near->object == NO_INDEX || !(judge->diameter[near->object] > 0.0) ||
+                !(fabs(near->t - truth->t) < step))
+                return false;
         }
-    return dirs;
+    return true;
 }
 
-static void judge_hits(const Judge *judge, const Vec3 *dirs, const SweepShared *shared,
-                       SweepResult *r) {
+static int count_holes(const Judge *judge, const SweepShared *shared) {
+    int holes = 0;
+    size_t width = (size_t)judge->options->width, height = (size_t)judge->options->height;
+    for (size_t y = 1; y + 1 < height; y++)
+        for (size_t x = 1; x + 1 < width; x++)
+            holes += is_hole(judge, shared, y * width + x);
+    return holes;
+}
+
+static void judge_hits(const Judge *judge, const SweepShared *shared, SweepResult *r) {
     size_t pixels = (size_t)judge->options->width * (size_t)judge->options->height, both = 0;
     size_t wrong = 0, patches = 0;
     double squares = 0.0, angle_squares = 0.0;
@@ -165,7 +186,7 @@ static void judge_hits(const Judge *judge, const Vec3 *dirs, const SweepShared *
         }
         if (!on_patch)
             continue;
-        double distance = distance_of(truth, look, dirs[i]), angle = angle_of(truth, look);
+        double distance = distance_of(truth, look), angle = angle_of(truth, look);
         double share = distance / judge->diameter[truth->object];
         double pixel = fmax(judge->footprint.angle * truth->t, judge->footprint.width);
         r->position_max = fmax(r->position_max, share);
@@ -179,6 +200,8 @@ static void judge_hits(const Judge *judge, const Vec3 *dirs, const SweepShared *
         r->position_rms = sqrt(squares / (double)both);
         r->normal_rms = sqrt(angle_squares / (double)both);
     }
+    r->holes = count_holes(judge, shared);
+    r->leaks = judge->edges.count > 0 ? (double)shared->leaks / (double)judge->edges.count : 0.0;
     r->wrong = patches > 0 ? (double)wrong / (double)patches : 0.0;
 }
 
@@ -207,8 +230,7 @@ static Image *new_map(const SweepOptions *o, Arena *arena) {
     return map;
 }
 
-static void make_maps(const Judge *judge, const Vec3 *dirs, const SweepShared *facets, Sweep *sweep,
-                      Arena *arena) {
+static void make_maps(const Judge *judge, const SweepShared *facets, Sweep *sweep, Arena *arena) {
     const SweepOptions *o = judge->options;
     sweep->distance = new_map(o, arena);
     sweep->angle = new_map(o, arena);
@@ -222,7 +244,7 @@ static void make_maps(const Judge *judge, const Vec3 *dirs, const SweepShared *f
             !(judge->diameter[truth->object] > 0.0))
             continue;
         double pixel = fmax(judge->footprint.angle * truth->t, judge->footprint.width);
-        sweep->distance->pixels[i] = (float)(distance_of(truth, look, dirs[i]) / pixel);
+        sweep->distance->pixels[i] = (float)(distance_of(truth, look) / pixel);
         sweep->angle->pixels[i] = (float)angle_of(truth, look);
     }
 }
@@ -240,8 +262,8 @@ static Scene *read_scene(const SweepOptions *o, Arena *arena) {
 }
 
 static void measure_round(const Judge *judge, Scene *scene, MeasuredList *list, int round,
-                          const Vec3 *dirs, const SweepCopy *copy, SweepShared *shared,
-                          Progress *progress, Sweep *sweep) {
+                          const SweepCopy *copy, SweepShared *shared, Progress *progress,
+                          Sweep *sweep) {
     const SweepOptions *o = judge->options;
     Arena *scratch = arena_create();
     for (size_t i = 0; i < list->count; i++, progress_add(progress, 1)) {
@@ -251,11 +273,13 @@ static void measure_round(const Judge *judge, Scene *scene, MeasuredList *list, 
             continue;
         Image *picture = NULL;
         if (m->point.povray) {
-            m->failed =
-                copy ? sweep_povray(o, copy, m->point.steps, &m->picture[round], &picture, scratch)
-                     : sweep->no_povray;
+            SweepPovray run = {0};
+            m->failed = copy ? sweep_povray(o, copy, m->point.steps, &run, &picture, scratch)
+                             : sweep->no_povray;
+            m->picture[round] = run.seconds;
+            m->megabytes = run.megabytes;
         } else {
-            m->failed = sweep_measure(scene, o, &m->point, shared);
+            m->failed = sweep_measure(scene, o, &m->point, round ? NULL : &judge->edges, shared);
             m->prepare[round] = shared->prepare;
             m->trace[round] = shared->trace;
             m->picture[round] = shared->picture;
@@ -265,7 +289,7 @@ static void measure_round(const Judge *judge, Scene *scene, MeasuredList *list, 
             continue;
         if (!m->point.povray) {
             picture = picture_of(shared, o, scratch);
-            judge_hits(judge, dirs, shared, r);
+            judge_hits(judge, shared, r);
         }
         judge_picture(judge, picture, r);
     }
@@ -303,7 +327,7 @@ Sweep *sweep_run(const SweepOptions *o, Arena *arena) {
     SweepShared *shared = sweep_shared_create(o->width, o->height);
     SweepPoint exact = {.method = METHOD_QI, .tolerance = TRUTH, .steps = -1},
                facets = {.method = METHOD_FACETS, .tolerance = 1e-9, .steps = -1};
-    const char *why = sweep_measure(scene, o, &exact, truth);
+    const char *why = sweep_measure(scene, o, &exact, NULL, truth);
     if (why)
         die("'%s' cannot be measured: its exact picture is %s", o->scene, why);
     Camera smooth = scene->camera;
@@ -313,11 +337,13 @@ Sweep *sweep_run(const SweepOptions *o, Arena *arena) {
                    .truth = truth,
                    .footprint = footprint_create(&view, 1.0),
                    .diameter = find_diameters(scene, arena),
-                   .truth_picture = picture_of(truth, o, arena)};
+                   .truth_picture = picture_of(truth, o, arena),
+                   .edges = edges_find(scene, EDGE_RAYS, arena)};
+    sweep->edges = judge.edges.edges;
+    sweep->edge_rays = judge.edges.count;
     sweep->picture = judge.truth_picture;
-    const Vec3 *dirs = find_dirs(scene, o, arena);
-    if (!sweep_measure(scene, o, &facets, shared))
-        make_maps(&judge, dirs, shared, sweep, arena);
+    if (!sweep_measure(scene, o, &facets, NULL, shared))
+        make_maps(&judge, shared, sweep, arena);
 
     MeasuredList list = choose_points(o);
     sweep->count = list.count;
@@ -325,10 +351,12 @@ Sweep *sweep_run(const SweepOptions *o, Arena *arena) {
     SweepCopy copy;
     if (o->povray)
         sweep->no_povray = sweep_povray_begin(o, &copy, arena);
+    if (o->povray && !sweep->no_povray)
+        sweep->povray_version = copy.version;
     Progress progress = progress_begin("measuring", (uint64_t)o->rounds * list.count, true);
     for (int round = 0; round < o->rounds; round++)
-        measure_round(&judge, scene, &list, round, dirs,
-                      o->povray && !sweep->no_povray ? &copy : NULL, shared, &progress, sweep);
+        measure_round(&judge, scene, &list, round, o->povray && !sweep->no_povray ? &copy : NULL,
+                      shared, &progress, sweep);
     progress_end(&progress);
     if (o->povray && !sweep->no_povray)
         sweep_povray_end(&copy);

@@ -32,9 +32,10 @@ SweepOptions sweep_options_default(void); // no scene; 320 x 240, 3 rounds, 60 s
 typedef struct {
     bool povray;
     PatchMethod method;
-    double tolerance; // of ours but facets
-    int steps;        // of triangles: u_steps and v_steps; else -1
-    double flatness;  // of triangles: 0 cuts down to the steps
+    PatchPrepare prepare; // of qi
+    double tolerance;     // of ours but facets
+    int steps;            // of triangles: u_steps and v_steps; else -1
+    double flatness;      // of triangles: 0 cuts down to the steps
 } SweepPoint;
 
 typedef struct {
@@ -47,12 +48,14 @@ typedef struct {
     Spread prepare, trace;  // seconds: patches and tree; one ray a pixel. Not of POV-Ray
     Spread picture;         // seconds: all of the picture, of POV-Ray without reading the scene
     double rays_per_second; // of trace
-    double megabytes;       // at the peak; not of POV-Ray
+    double megabytes;       // at the peak, beyond what the scene that was read takes
     // Of hits, where both met the same patch; not of POV-Ray. Distances along the true normal.
     double position_max, position_rms; // in diameters of the patch
     double position_pixels;            // the largest, in pixels there
     double normal_max, normal_rms;     // degrees
     double wrong;                      // share of pixels that met something else, or nothing
+    double leaks;                      // share of the rays through shared edges that slip through
+    int holes;                         // pixels inside a surface that show what lies behind it
     // Of the picture.
     double rms, psnr; // steps of 8 bits; dB
     double off;       // share of pixels off by more than a step
@@ -63,9 +66,11 @@ typedef struct {
     const char *scene;
     int width, height, rounds;
     uint32_t patches;
+    size_t edges, edge_rays; // shared smooth edges, rays through them (edges.h)
     SweepResult *results;
     size_t count;
-    const char *no_povray; // why POV-Ray's own points are missing; NULL: they are there
+    const char *no_povray;      // why POV-Ray's own points are missing; NULL: they are there
+    const char *povray_version; // NULL: not there
     // Maps, one value a pixel: of the scene's own triangles against the truth, and of qi's work.
     Image *distance, *angle, *steps, *leaves;
     Image *picture; // the truth
@@ -74,7 +79,7 @@ typedef struct {
 // Dies when the scene cannot be read. Memory in arena.
 Sweep *sweep_run(const SweepOptions *options, Arena *arena);
 
-const char *sweep_point_name(const SweepPoint *point,
-                             Arena *arena); // "qi 1e-09", "povray u_steps 4"
+// "qi 1e-09", "qi prepared light 1e-09", "povray u_steps 4"
+const char *sweep_point_name(const SweepPoint *point, Arena *arena);
 
 #endif

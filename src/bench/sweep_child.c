@@ -17,6 +17,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+static const double LEAST_TIME = 0.1; // seconds
+
 static size_t shared_size(int width, int height) {
     size_t pixels = (size_t)width * (size_t)height;
     return sizeof(SweepShared) + pixels * (sizeof(SweepLook) + 3 * sizeof(float));
@@ -51,6 +53,7 @@ static void look_around(const Scene *scene, const World *world, int width, int h
             WorldHit hit;
             if (!camera_ray(&view, x, y, &ray))
                 continue;
+            look->dir = ray.dir;
             if (world_intersect(world, &ray, 0.0, INFINITY, RAY_CAMERA, &stats, &hit)) {
                 look->t = hit.t;
                 look->normal = hit.normal;
@@ -62,17 +65,73 @@ static void look_around(const Scene *scene, const World *world, int width, int h
         }
 }
 
+// What this process holds in memory now.
+static double resident_megabytes(void) {
+    unsigned long whole, resident = 0;
+    FILE *f = fopen("/proc/self/statm", "r");
+    if (f && fscanf(f, "%lu %lu", &whole, &resident) != 2)
+        resident = 0;
+    if (f)
+        fclose(f);
+    return (double)resident * (double)sysconf(_SC_PAGESIZE) / 1048576.0;
+}
+
+static double peak_megabytes(void) {
+    struct rusage use;
+    getrusage(RUSAGE_SELF, &use);
+    return (double)use.ru_maxrss / 1024.0;
+}
+
+static size_t count_leaks(const Scene *scene, const PatchSetOptions *options,
+                          const EdgeRays *edges) {
+    PatchSet *set = patchset_create(options);
+    for (uint32_t i = 0; i < scene->object_count; i++) {
+        const PatchShape *patch = &scene->objects[i].shape.patch;
+        if (scene->objects[i].type != OBJECT_PATCH || patch->weights)
+            continue;
+        const PatchDef def = {.degree_u = patch->degree_u,
+                              .degree_v = patch->degree_v,
+                              .points = patch->points,
+                              .id = i,
+                              .mask = 1,
+                              .flatness = patch->flatness,
+                              .u_steps = patch->u_steps,
+                              .v_steps = patch->v_steps};
+        patchset_add(set, &def);
+    }
+    patchset_commit(set);
+    size_t leaks = edges_leaks(edges, set);
+    patchset_destroy(set);
+    return leaks;
+}
+
+static void put_picture(const Scene *scene, const RenderOptions *render, float *pixels) {
+    Arena *arena = arena_create();
+    ImageWriteOptions write;
+    RenderStats stats;
+    const Image *image = render_scene(scene, render, arena, &write, &stats);
+    for (size_t i = 0; i < (size_t)image->width * (size_t)image->height; i++)
+        memcpy(&pixels[3 * i], &image->pixels[(size_t)image->channels * i], 3 * sizeof(float));
+    arena_destroy(arena);
+}
+
 static void measure(const Scene *scene, const SweepOptions *o, const SweepPoint *point,
-                    SweepShared *shared) {
+                    const EdgeRays *edges, SweepShared *shared) {
+    double before = resident_megabytes(); // what is inherited
     PatchSetOptions patches = patchset_options_default();
     patches.method = point->method;
     patches.tolerance = point->tolerance;
+    patches.prepare = point->prepare;
     double start = process_seconds();
     World *world = world_create(scene, &patches);
     shared->prepare = process_seconds() - start;
+    // Again and again until the clock, which may tick 250 times a second, can tell.
+    int times = 0;
     start = process_seconds();
-    look_around(scene, world, o->width, o->height, shared->looks);
-    shared->trace = process_seconds() - start;
+    do {
+        look_around(scene, world, o->width, o->height, shared->looks);
+        shared->trace = (process_seconds() - start) / ++times;
+    } while (shared->trace * times < LEAST_TIME);
     world_destroy(world);
 
     RenderOptions render = options_default();
@@ -83,22 +142,22 @@ static void measure(const Scene *scene, const SweepOptions *o, const SweepPoint 
     render.bits = 16;
     render.method = point->method;
     render.tolerance = point->tolerance;
-    Arena *arena = arena_create();
-    ImageWriteOptions write;
-    RenderStats stats;
+    render.prepare = point->prepare;
+    times = 0;
     start = process_seconds();
-    const Image *image = render_scene(scene, &render, arena, &write, &stats);
-    shared->picture = process_seconds() - start;
-    for (size_t i = 0; i < (size_t)o->width * (size_t)o->height; i++)
-        memcpy(&shared->pixels[3 * i], &image->pixels[(size_t)image->channels * i],
-               3 * sizeof(float));
-    arena_destroy(arena);
+    do {
+        put_picture(scene, &render, shared->pixels);
+        shared->picture = (process_seconds() - start) / ++times;
+    } while (shared->picture * times < LEAST_TIME);
+    shared->megabytes = peak_megabytes() - before;
+    if (edges)
+        shared->leaks = count_leaks(scene, &patches, edges);
     shared->done = true;
 }
 
 // The child's side: one processor, one thread, not for longer than patience.
 _Noreturn static void be_child(const Scene *scene, const SweepOptions *o, const SweepPoint *point,
-                               SweepShared *shared) {
+                               const EdgeRays *edges, SweepShared *shared) {
     cpu_set_t one;
     CPU_ZERO(&one);
     CPU_SET(0, &one);
@@ -107,7 +166,7 @@ _Noreturn static void be_child(const Scene *scene, const SweepOptions *o, const 
     const struct rlimit limit = {seconds, seconds + 1};
     setrlimit(RLIMIT_CPU, &limit);
     omp_set_num_threads(1);
-    measure(scene, o, point, shared);
+    measure(scene, o, point, edges, shared);
     fflush(NULL);
     _exit(0);
 }
@@ -122,35 +181,20 @@ static void set_steps(Scene *scene, const SweepPoint *point) {
     }
 }
 
-// What this process holds in memory now.
-static double resident_megabytes(void) {
-    unsigned long whole, resident = 0;
-    FILE *f = fopen("/proc/self/statm", "r");
-    if (f && fscanf(f, "%lu %lu", &whole, &resident) != 2)
-        resident = 0;
-    if (f)
-        fclose(f);
-    return (double)resident * (double)sysconf(_SC_PAGESIZE) / 1048576.0;
-}
-
 const char *sweep_measure(Scene *scene, const SweepOptions *o, const SweepPoint *point,
-                          SweepShared *shared) {
+                          const EdgeRays *edges, SweepShared *shared) {
     set_steps(scene, point);
     shared->done = false;
     fflush(NULL);
-    double before = resident_megabytes();
     pid_t child = fork();
     if (child < 0)
         die("cannot start a process: %s", strerror(errno));
     if (child == 0)
-        be_child(scene, o, point, shared);
+        be_child(scene, o, point, edges, shared);
     int status;
-    struct rusage use;
-    while (wait4(child, &status, 0, &use) < 0)
+    while (waitpid(child, &status, 0) < 0)
         if (errno != EINTR)
             die("cannot wait for a process: %s", strerror(errno));
-    // Of the process, but for what it has inherited.
-    shared->megabytes = (double)use.ru_maxrss / 1024.0 - before;
     if (WIFSIGNALED(status) && (WTERMSIG(status) == SIGXCPU || WTERMSIG(status) == SIGKILL))
         return "too slow";
     return shared->done ? NULL : "ended with an error";

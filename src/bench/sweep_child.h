@@ -6,11 +6,13 @@
 
 #include "base/color.h"
 #include "base/vec.h"
+#include "bench/edges.h"
 #include "bench/sweep.h"
 #include "model/scene.h"
 
-// What a ray through the middle of a pixel met.
+// The ray through the middle of a pixel, and what it met.
 typedef struct {
+    Vec3 dir;
     double t;        // infinite: nothing
     Vec3 normal;     // of unit length
     uint32_t object; // NO_INDEX: nothing
@@ -22,6 +24,7 @@ typedef struct {
     bool done;
     double prepare, trace, picture; // seconds
     double megabytes;
+    size_t leaks;     // of the rays through edges
     SweepLook *looks; // width x height
     float *pixels;    // three channels, as in a file of 16 bits
 } SweepShared;
@@ -29,9 +32,9 @@ typedef struct {
 SweepShared *sweep_shared_create(int width, int height);
 void sweep_shared_destroy(SweepShared *shared, int width, int height);
 
-// Measures. NULL: it went well, else why it did not ("more than 60 s", ...). scene's patches get
-// the steps of the point while it lasts.
+// Measures. NULL: it went well, else why it did not ("too slow", ...). scene's patches get the
+// steps of the point. edges: rays to count leaks of; NULL: none.
 const char *sweep_measure(Scene *scene, const SweepOptions *options, const SweepPoint *point,
-                          SweepShared *shared);
+                          const EdgeRays *edges, SweepShared *shared);
 
 #endif

@@ -25,23 +25,33 @@ typedef struct {
     PatchMethod method;
     bool flat; // facets by flatness rather than steps
     const char *color;
+    PatchPrepare prepare; // of qi
 } Curve;
 
 static const Curve curves[] = {
-    {"qi", false, METHOD_QI, false, "#0b63b0"},
-    {"clipping", false, METHOD_CLIPPING, false, "#d1495b"},
-    {"newton", false, METHOD_NEWTON, false, "#edae49"},
-    {"Embree's triangles", false, METHOD_TESSELLATION, false, "#66a182"},
-    {"qi-paper", false, METHOD_QI_PAPER, false, "#8ab4d8"},
-    {"POV-Ray's triangles, by u_steps", false, METHOD_FACETS, false, "#8d6a9f"},
-    {"POV-Ray's triangles, by flatness", false, METHOD_FACETS, true, "#c7a9d6"},
-    {"POV-Ray itself, by u_steps", true, METHOD_FACETS, false, "#222222"},
+    {.title = "qi", .method = METHOD_QI, .color = "#0b63b0"},
+    {.title = "qi, prepared light",
+     .method = METHOD_QI,
+     .prepare = PREPARE_LIGHT,
+     .color = "#3f9fd8"},
+    {.title = "qi, not prepared", .method = METHOD_QI, .prepare = PREPARE_NONE, .color = "#8fcbea"},
+    {.title = "clipping", .method = METHOD_CLIPPING, .color = "#d1495b"},
+    {.title = "newton", .method = METHOD_NEWTON, .color = "#edae49"},
+    {.title = "Embree's triangles", .method = METHOD_TESSELLATION, .color = "#66a182"},
+    {.title = "qi-paper", .method = METHOD_QI_PAPER, .color = "#a0a0a0"},
+    {.title = "POV-Ray's triangles, by u_steps", .method = METHOD_FACETS, .color = "#8d6a9f"},
+    {.title = "POV-Ray's triangles, by flatness",
+     .method = METHOD_FACETS,
+     .flat = true,
+     .color = "#c7a9d6"},
+    {.title = "POV-Ray itself, by u_steps", .povray = true, .color = "#222222"},
 };
 enum { CURVES = sizeof curves / sizeof *curves };
 
 static bool belongs(const Curve *curve, const SweepResult *r) {
     return !r->failed && r->point.povray == curve->povray &&
            (curve->povray || r->point.method == curve->method) &&
+           (curve->povray || r->point.prepare == curve->prepare) &&
            (curve->povray || curve->method != METHOD_FACETS ||
             (r->point.flatness > 0.0) == curve->flat);
 }
@@ -110,8 +120,8 @@ static void write_script(const Sweep *s, bool picture, const char *svg, const ch
     for (int c = 0; c < CURVES; c++) {
         if (!count_points(s, &curves[c], picture))
             continue;
-        fprintf(script, "%s$curve%d with linespoints lw 1.6 pt %d ps 0.8 title \"%s\"",
-                any ? ", " : "", c, c + 4, curves[c].title);
+        fprintf(script, "%s$curve%d with linespoints lw 1.6 pt %d ps 0.8 lc rgb '%s' title \"%s\"",
+                any ? ", " : "", c, c + 4, curves[c].color, curves[c].title);
         any = true;
     }
     putc('\n', script);
@@ -181,10 +191,13 @@ static void put_map(FILE *out, const Image *map, double least, const char *capti
 static void put_table(FILE *out, const Sweep *s) {
     Arena *arena = arena_create();
     fputs("<div class=\"scroll\"><table>\n<thead><tr><th scope=\"col\">Method</th><th "
-          "scope=\"col\">Picture, s</th><th scope=\"col\">Mray/s</th><th scope=\"col\">Prepare, "
-          "ms</th><th scope=\"col\">MB</th><th scope=\"col\">Position, diameters</th><th "
+          "scope=\"col\">Picture, s</th><th scope=\"col\">least&#8211;most</th><th "
+          "scope=\"col\">MB</th><th scope=\"col\">Mray/s</th><th scope=\"col\">Prepare, "
+          "ms</th><th scope=\"col\">Position, diameters</th><th "
           "scope=\"col\">pixels</th><th scope=\"col\">Normal, &#176;</th><th scope=\"col\">Wrong "
-          "hits</th><th scope=\"col\">RMS, steps</th><th scope=\"col\">PSNR, dB</th><th "
+          "hits</th><th "
+          "scope=\"col\">Edge rays lost</th><th scope=\"col\">Pin-holes</th><th scope=\"col\">RMS, "
+          "steps</th><th scope=\"col\">PSNR, dB</th><th "
           "scope=\"col\">Pixels off</th></tr></thead>\n<tbody>\n",
           out);
     for (size_t i = 0; i < s->count; i++) {
@@ -192,19 +205,20 @@ static void put_table(FILE *out, const Sweep *s) {
         fprintf(out, "<tr%s><th scope=\"row\">%s</th>", r->front ? " class=\"front\"" : "",
                 sweep_point_name(&r->point, arena));
         if (r->failed) {
-            fprintf(out, "<td colspan=\"11\">%s</td></tr>\n", r->failed);
+            fprintf(out, "<td colspan=\"14\">%s</td></tr>\n", r->failed);
             continue;
         }
-        fprintf(out, "<td title=\"%.3f to %.3f\">%.3f</td>", r->picture.least, r->picture.most,
-                r->picture.median);
+        fprintf(out, "<td>%.3f</td><td class=\"soft\">%.3f&#8211;%.3f</td><td>%.0f</td>",
+                r->picture.median, r->picture.least, r->picture.most, r->megabytes);
         if (r->point.povray)
-            fputs("<td></td><td></td><td></td><td></td><td></td><td></td><td></td>", out);
+            fputs("<td colspan=\"8\"></td>", out);
         else
             fprintf(out,
-                    "<td>%.3g</td><td>%.1f</td><td>%.0f</td><td>%.2g</td><td>%.2g</td><td>%.2g</td>"
-                    "<td>%.2g&nbsp;%%</td>",
-                    r->rays_per_second * 1e-6, 1e3 * r->prepare.median, r->megabytes,
-                    r->position_max, r->position_pixels, r->normal_max, 100.0 * r->wrong);
+                    "<td>%.3g</td><td>%.1f</td><td>%.2g</td><td>%.2g</td><td>%.2g</td>"
+                    "<td>%.2g&nbsp;%%</td><td>%.2g&nbsp;%%</td><td>%d</td>",
+                    r->rays_per_second * 1e-6, 1e3 * r->prepare.median, r->position_max,
+                    r->position_pixels, r->normal_max, 100.0 * r->wrong, 100.0 * r->leaks,
+                    r->holes);
         fprintf(out, "<td>%.3g</td>", r->rms);
         if (isfinite(r->psnr))
             fprintf(out, "<td>%.1f</td>", r->psnr);
@@ -212,11 +226,12 @@ static void put_table(FILE *out, const Sweep *s) {
             fputs("<td>&#8734;</td>", out);
         fprintf(out, "<td>%.3g&nbsp;%%</td></tr>\n", 100.0 * r->off);
     }
-    fputs(
-        "</tbody>\n</table></div>\n<p class=\"soft\"><small>Bold: on the Pareto front of time "
-        "against the picture&#8217;s RMS. Point at a time to see the least and the largest of the "
-        "rounds.</small></p>\n",
-        out);
+    fputs("</tbody>\n</table></div>\n<p class=\"soft\"><small>Bold: on the Pareto front of time "
+          "against the picture&#8217;s RMS. Edge rays go through smooth edges that two patches "
+          "share; pin-holes are pixels inside a surface that show what lies behind it. POV-Ray "
+          "tells only its picture; its memory and time are those beyond reading the "
+          "scene.</small></p>\n",
+          out);
     arena_destroy(arena);
 }
 
@@ -225,9 +240,9 @@ static void put_scene(FILE *out, const Sweep *s, const char *folder) {
     fputs("<h2>", out);
     html_text(out, slash ? slash + 1 : s->scene);
     fprintf(out,
-            "</h2>\n<p class=\"soft\">%u patches, %d &#215; %d pixels, one pinned thread, median "
-            "of %d rounds in turn. The truth is qi at 1e-14.</p>\n",
-            s->patches, s->width, s->height, s->rounds);
+            "</h2>\n<p class=\"soft\">%u patches, %zu shared edges, %d &#215; %d pixels, one "
+            "pinned thread, median of %d rounds in turn. The truth is qi at 1e-14.</p>\n",
+            s->patches, s->edges, s->width, s->height, s->rounds);
     if (s->no_povray) {
         fputs("<p>POV-Ray&#8217;s own points are missing: ", out);
         html_text(out, s->no_povray);
@@ -264,8 +279,13 @@ void sweep_page_write(const Sweep *const *sweeps, size_t count, const char *comm
         "<body>\n<main>\n<header>\n<h1>Speed against accuracy</h1>\n<p class=\"soft\">",
         page_style);
     html_text(out, run_machine(arena));
-    fprintf(out, ", instruction set %s, gcc %s, qipov %s.</p>\n</header>\n", patch_isa_name(),
-            __VERSION__, QIPOV_VERSION);
+    fprintf(out, ", instruction set %s, gcc %s, qipov %s", patch_isa_name(), __VERSION__,
+            QIPOV_VERSION);
+    if (count > 0 && sweeps[0]->povray_version) {
+        fputs(", ", out);
+        html_text(out, sweeps[0]->povray_version);
+    }
+    fputs(".</p>\n</header>\n", out);
     for (size_t i = 0; i < count; i++)
         put_scene(out, sweeps[i], folder);
     fputs("<h2>Command</h2>\n<pre>", out);

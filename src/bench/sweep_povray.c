@@ -7,6 +7,7 @@
 #include "base/file.h"
 #include "report/run.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -29,6 +30,48 @@ static const char *quote(Arena *arena, const char *text) {
     return arena_printf(arena, "%s'", out);
 }
 
+typedef struct {
+    const SweepOptions *options;
+    const SweepCopy *copy;
+    Arena *arena;
+    int width, height;
+    Run run;
+} Render;
+
+static void render(void *context) {
+    Render *r = context;
+    Command command = {.count = 0};
+    long kilobytes = sysconf(_SC_PHYS_PAGES) / 2 * (sysconf(_SC_PAGESIZE) / 1024);
+    run_add(&command, "sh");
+    run_add(&command, "-c");
+    run_add(&command,
+            arena_printf(r->arena,
+                         "cd %s/scene && ulimit -t %.0f && ulimit -v %ld && exec taskset -c 0 "
+                         "povray +I%s +Oout.png +W%d +H%d -A -D -P +WT1 +FN16",
+                         r->copy->folder, ceil(r->options->patience), kilobytes,
+                         quote(r->arena, r->copy->scene), r->width, r->height));
+    r->run = run_command_line(&command, "POV-Ray",
+                              arena_printf(r->arena, "%s/log.txt", r->copy->folder), r->arena);
+}
+
+static const char *render_at(Render *r, int steps) {
+    shell(r->arena, r->copy,
+          arena_printf(
+              r->arena,
+              "cd %s/scene && sed -E -i "
+              "'s/(u_steps|v_steps)[[:space:]]+[0-9A-Za-z_]+/\\1 %d/g; "
+              "s/flatness[[:space:]]+[0-9.A-Za-z_]+/flatness 0/g' $(ls *.pov *.inc 2>/dev/null)",
+              r->copy->folder, steps));
+    char *message = NULL;
+    if (diag_catch(render, r, &message))
+        return NULL;
+    const char *why = strstr(message, "interrupted")                              ? "too slow"
+                      : strstr(message, "memory") || strstr(message, "bad_alloc") ? "too large"
+                                                                                  : "fails";
+    free(message);
+    return why;
+}
+
 const char *sweep_povray_begin(const SweepOptions *o, SweepCopy *copy, Arena *arena) {
     if (system("command -v povray >/dev/null 2>&1") != 0)
         return "povray is not installed";
@@ -43,7 +86,15 @@ const char *sweep_povray_begin(const SweepOptions *o, SweepCopy *copy, Arena *ar
         script = arena_printf(arena, "%s && cp -L %s/*.inc %s/scene 2>/dev/null; true", script,
                               quote(arena, o->library_paths[i]), copy->folder);
     shell(arena, copy, script);
-    return NULL;
+    const char *said = shell(arena, copy, "povray --version 2>&1 | head -1");
+    copy->version = arena_printf(arena, "%.*s", (int)strcspn(said, "\n"), said);
+    Render reading = {o, copy, arena, 1, 1, {0}};
+    const char *why = render_at(&reading, 0);
+    copy->seconds = reading.run.seconds;
+    copy->megabytes = reading.run.megabytes;
+    if (why)
+        sweep_povray_end(copy);
+    return why ? arena_printf(arena, "POV-Ray does not read the scene: %s", why) : NULL;
 }
 
 void sweep_povray_end(const SweepCopy *copy) {
@@ -53,50 +104,14 @@ void sweep_povray_end(const SweepCopy *copy) {
         warn("'%s' stays behind", copy->folder);
 }
 
-typedef struct {
-    const SweepCopy *copy;
-    Arena *arena;
-    int width, height;
-    Run run;
-} Render;
-
-static void render(void *context) {
-    Render *r = context;
-    Command command = {.count = 0};
-    run_add(&command, "sh");
-    run_add(&command, "-c");
-    run_add(&command,
-            arena_printf(r->arena,
-                         "cd %s/scene && exec povray +I%s +Oout.png +W%d +H%d -A -D -P +WT1 +FN16",
-                         r->copy->folder, quote(r->arena, r->copy->scene), r->width, r->height));
-    r->run = run_command_line(&command, "POV-Ray",
-                              arena_printf(r->arena, "%s/log.txt", r->copy->folder), r->arena);
-}
-
-static const char *render_at(Render *r) {
-    char *message = NULL;
-    if (diag_catch(render, r, &message))
-        return NULL;
-    free(message);
-    return "POV-Ray fails on it";
-}
-
-const char *sweep_povray(const SweepOptions *o, const SweepCopy *copy, int steps, double *seconds,
+const char *sweep_povray(const SweepOptions *o, const SweepCopy *copy, int steps, SweepPovray *run,
                          Image **picture, Arena *arena) {
-    shell(arena, copy,
-          arena_printf(
-              arena,
-              "cd %s/scene && sed -E -i "
-              "'s/(u_steps|v_steps)[[:space:]]+[0-9A-Za-z_]+/\\1 %d/g; "
-              "s/flatness[[:space:]]+[0-9.A-Za-z_]+/flatness 0/g' $(ls *.pov *.inc 2>/dev/null)",
-              copy->folder, steps));
-    Render reading = {copy, arena, 1, 1, {0}}, whole = {copy, arena, o->width, o->height, {0}};
-    const char *why = render_at(&reading);
-    if (!why)
-        why = render_at(&whole);
+    Render whole = {o, copy, arena, o->width, o->height, {0}};
+    const char *why = render_at(&whole, steps);
     if (why)
         return why;
-    *seconds = whole.run.seconds - reading.run.seconds;
+    run->seconds = whole.run.seconds - copy->seconds;
+    run->megabytes = whole.run.megabytes - copy->megabytes;
     *picture = image_read(arena, arena_printf(arena, "%s/scene/out.png", copy->folder));
     return NULL;
 }

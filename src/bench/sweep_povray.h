@@ -8,18 +8,25 @@
 // A copy of the scene's folder in a temporary one, removed by the caller with sweep_povray_end.
 typedef struct {
     char folder[64];
-    const char *scene; // its name there
+    const char *scene;   // its name there
+    const char *version; // of POV-Ray
+    // Processor time and peak of memory for reading the scene with two triangles a patch.
+    double seconds, megabytes;
 } SweepCopy;
+
+// What a picture takes beyond that.
+typedef struct {
+    double seconds, megabytes;
+} SweepPovray;
 
 // NULL: done; else why not.
 const char *sweep_povray_begin(const SweepOptions *options, SweepCopy *copy, Arena *arena);
 void sweep_povray_end(const SweepCopy *copy);
 
 // Renders with u_steps and v_steps n and flatness 0 wherever the text gives a number or a name for
-// them.
-// *seconds: of processor time, less what reading the scene alone takes (a picture of one pixel).
-// NULL: done; else why not.
+// them; on one pinned thread, not for longer than the patience, with at most half of the machine's
+// memory. NULL: done; else why not.
 const char *sweep_povray(const SweepOptions *options, const SweepCopy *copy, int steps,
-                         double *seconds, Image **picture, Arena *arena);
+                         SweepPovray *run, Image **picture, Arena *arena);
 
 #endif

@@ -22,24 +22,25 @@ void sweep_print(const Sweep *s, FILE *out) {
     Arena *arena = arena_create();
     fprintf(out,
             "%s: %u patches, %d x %d, one thread, median of %d.\n\n"
-            "| method | picture, s | Mray/s | prepare, ms | memory, MB | position, diameters | "
-            "position, pixels | normal, degrees | wrong hits | picture RMS, steps | pixels off | "
-            "front |\n|---|---|---|---|---|---|---|---|---|---|---|---|\n",
+            "| method | picture, s | least to most | memory, MB | Mray/s | prepare, ms | position, "
+            "diameters | position, pixels | normal, degrees | wrong hits | picture RMS, steps | "
+            "pixels off | front |\n|---|---|---|---|---|---|---|---|---|---|---|---|---|\n",
             base_name(s->scene), s->patches, s->width, s->height, s->rounds);
     for (size_t i = 0; i < s->count; i++) {
         const SweepResult *r = &s->results[i];
         fprintf(out, "| %s |", sweep_point_name(&r->point, arena));
         if (r->failed) {
-            fprintf(out, " %s | | | | | | | | | | |\n", r->failed);
+            fprintf(out, " %s | | | | | | | | | | | |\n", r->failed);
             continue;
         }
-        fprintf(out, " %.3f |", r->picture.median);
+        fprintf(out, " %.3f | %.3f to %.3f | %.0f |", r->picture.median, r->picture.least,
+                r->picture.most, r->megabytes);
         if (r->point.povray)
-            fputs(" | | | | | | |", out);
+            fputs(" | | | | | |", out);
         else
-            fprintf(out, " %.3g | %.1f | %.0f | %.2g | %.2g | %.2g | %.2g %% |",
-                    r->rays_per_second * 1e-6, 1e3 * r->prepare.median, r->megabytes,
-                    r->position_max, r->position_pixels, r->normal_max, 100.0 * r->wrong);
+            fprintf(out, " %.3g | %.1f | %.2g | %.2g | %.2g | %.2g %% |", r->rays_per_second * 1e-6,
+                    1e3 * r->prepare.median, r->position_max, r->position_pixels, r->normal_max,
+                    100.0 * r->wrong);
         fprintf(out, " %.3g | %.3g %% | %s |\n", r->rms, 100.0 * r->off, r->front ? "yes" : "");
     }
     arena_destroy(arena);
@@ -52,13 +53,14 @@ typedef struct {
     double value;
 } Column;
 
-enum { COLUMNS = 20 };
+enum { COLUMNS = 22 };
 
 static void columns_of(const SweepResult *r, Column out[COLUMNS]) {
     const Column columns[COLUMNS] = {
         {"picture_s", r->picture.median},
         {"picture_s_min", r->picture.least},
         {"picture_s_max", r->picture.most},
+        {"megabytes", r->megabytes},
         {"prepare_s", r->prepare.median},
         {"prepare_s_min", r->prepare.least},
         {"prepare_s_max", r->prepare.most},
@@ -66,13 +68,14 @@ static void columns_of(const SweepResult *r, Column out[COLUMNS]) {
         {"trace_s_min", r->trace.least},
         {"trace_s_max", r->trace.most},
         {"rays_per_s", r->rays_per_second},
-        {"megabytes", r->megabytes},
         {"position_max_diameters", r->position_max},
         {"position_rms_diameters", r->position_rms},
         {"position_max_pixels", r->position_pixels},
         {"normal_max_degrees", r->normal_max},
         {"normal_rms_degrees", r->normal_rms},
         {"wrong_hits_share", r->wrong},
+        {"edge_leaks_share", r->leaks},
+        {"pin_hole_pixels", r->holes},
         {"picture_rms_steps", r->rms},
         {"picture_psnr_db", r->psnr},
         {"pixels_off_share", r->off},
@@ -82,12 +85,14 @@ static void columns_of(const SweepResult *r, Column out[COLUMNS]) {
 
 // POV-Ray's hits are not known: only its picture.
 static bool is_known(const SweepResult *r, int column) {
-    return !r->point.povray || column < 3 || column >= 17;
+    return !r->point.povray || column < 4 || column >= COLUMNS - 3;
 }
 
 static const char *method_of(const SweepPoint *p) {
     return p->povray ? "povray" : patch_method_name(p->method);
 }
+
+static bool is_qi(const SweepPoint *p) { return !p->povray && p->method == METHOD_QI; }
 
 static void write_csv(const Sweep *const *sweeps, size_t count, const char *path) {
     OutputFile *file = file_begin(path);
@@ -95,7 +100,7 @@ static void write_csv(const Sweep *const *sweeps, size_t count, const char *path
     const SweepResult none = {0};
     Column columns[COLUMNS];
     columns_of(&none, columns);
-    fputs("scene,method,tolerance,u_steps,flatness,failed,front", out);
+    fputs("scene,method,prepare,tolerance,u_steps,flatness,failed,front", out);
     for (int k = 0; k < COLUMNS; k++)
         fprintf(out, ",%s", columns[k].name);
     putc('\n', out);
@@ -103,10 +108,12 @@ static void write_csv(const Sweep *const *sweeps, size_t count, const char *path
         for (size_t n = 0; n < sweeps[i]->count; n++) {
             const SweepResult *r = &sweeps[i]->results[n];
             fprintf(out, "%s,%s,", base_name(sweeps[i]->scene), method_of(&r->point));
+            if (is_qi(&r->point))
+                fputs(patch_prepare_name(r->point.prepare), out);
             if (r->point.steps < 0)
-                fprintf(out, "%g,,,", r->point.tolerance);
+                fprintf(out, ",%g,,,", r->point.tolerance);
             else
-                fprintf(out, ",%d,%g,", r->point.steps, r->point.flatness);
+                fprintf(out, ",,%d,%g,", r->point.steps, r->point.flatness);
             fprintf(out, "%s,%d", r->failed ? r->failed : "", r->front);
             columns_of(r, columns);
             for (int k = 0; k < COLUMNS; k++) {
@@ -128,6 +135,8 @@ static json_t *result_json(const SweepResult *r) {
         json_object_set_new(object, "u_steps", json_integer(r->point.steps));
         json_object_set_new(object, "flatness", json_real(r->point.flatness));
     }
+    if (is_qi(&r->point))
+        json_object_set_new(object, "prepare", json_string(patch_prepare_name(r->point.prepare)));
     json_object_set_new(object, "front", json_boolean(r->front));
     if (r->failed)
         json_object_set_new(object, "failed", json_string(r->failed));
@@ -159,6 +168,10 @@ static void write_json(const Sweep *const *sweeps, size_t count, const char *com
         json_object_set_new(scene, "patches", json_integer(sweeps[i]->patches));
         json_object_set_new(scene, "width", json_integer(sweeps[i]->width));
         json_object_set_new(scene, "height", json_integer(sweeps[i]->height));
+        json_object_set_new(scene, "shared_edges", json_integer((json_int_t)sweeps[i]->edges));
+        json_object_set_new(scene, "edge_rays", json_integer((json_int_t)sweeps[i]->edge_rays));
+        if (sweeps[i]->povray_version)
+            json_object_set_new(scene, "povray", json_string(sweeps[i]->povray_version));
         json_object_set_new(scene, "rounds", json_integer(sweeps[i]->rounds));
         for (size_t n = 0; n < sweeps[i]->count; n++)
             json_array_append_new(results, result_json(&sweeps[i]->results[n]));

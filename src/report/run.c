@@ -75,6 +75,7 @@ Run run_command_line(Command *command, const char *name, const char *log, Arena 
             die("cannot wait for %s: %s", command->words[0], strerror(errno));
     run.elapsed = progress_seconds() - start;
     run.seconds = user_seconds(&use);
+    run.megabytes = (double)use.ru_maxrss / 1024.0;
     const char *said = file_read(arena, log, NULL, NULL);
     run.log = said ? said : "";
     if (WIFSIGNALED(status) || (WIFEXITED(status) && WEXITSTATUS(status) == 2))

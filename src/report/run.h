@@ -24,6 +24,7 @@ typedef struct {
     const char *log;     // what it said on both outputs
     double seconds;      // of processor time in user mode
     double elapsed;      // on the wall
+    double megabytes;    // of memory, at its peak
 } Run;
 
 // Runs the command with both its outputs in the file `log`, and waits. name: what to call it in

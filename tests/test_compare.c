@@ -284,11 +284,28 @@ static void script_runs_in_a_browser(void **state) {
     write_pictures(place);
     const char *said;
     compare(place, "one.png two.png -o a", &said);
+    // The page itself, and after it what a reader does: moves the slider, blinks, comes back.
     const char *command = arena_printf(
         place->arena,
-        "cd %s && timeout 30 chromium --headless --no-sandbox --disable-gpu --user-data-dir=%s/b "
-        "--dump-dom file://%s/a/index.html >dom.html 2>browser.txt",
-        place->folder, place->folder, place->folder);
+        "cd %s && cat a/index.html >t.html && echo '<script>onload=function(){"
+        "var s=document.querySelector(\".stage\"),r=document.querySelector(\".under input\"),"
+        "b=document.querySelectorAll(\".bar button\"),said=[];"
+        "said.push(Array.from(document.images).every(function(i){return i.naturalWidth>0})?"
+        "\"images \"+document.images.length:\"broken\");"
+        "function cut(){return s.style.getPropertyValue(\"--cut\")}"
+        "r.value=30;r.dispatchEvent(new Event(\"input\"));said.push(\"input \"+cut());"
+        "var box=s.getBoundingClientRect();"
+        "s.dispatchEvent(new PointerEvent(\"pointermove\",{clientX:box.left+0.75*box.width,"
+        "clientY:box.top+5,buttons:1,pointerType:\"touch\",bubbles:true}));"
+        "said.push(\"pointer \"+Math.round(parseFloat(cut())));"
+        "b.forEach(function(x){if(x.value===\"blink\")x.click()});said.push(s.dataset.mode);"
+        "b.forEach(function(x){if(x.value===\"slider\")x.click()});said.push(s.dataset.mode);"
+        "document.body.setAttribute(\"data-said\",said.join(\"; \"))}</script>' >>t.html && "
+        "timeout 60 chromium --headless --no-sandbox --disable-gpu --user-data-dir=%s/b "
+        "--enable-logging=stderr --dump-dom file://%s/t.html >told.html 2>browser.txt && "
+        "timeout 60 chromium --headless --no-sandbox --disable-gpu --user-data-dir=%s/b "
+        "--enable-logging=stderr --dump-dom file://%s/a/index.html >dom.html 2>>browser.txt",
+        place->folder, place->folder, place->folder, place->folder, place->folder);
     if (system(command) != 0) {
         print_message("skipped: chromium does not run here\n");
         skip();
@@ -298,6 +315,10 @@ static void script_runs_in_a_browser(void **state) {
     assert_non_null(strstr(dom, "data-mode=\"slider\""));
     assert_non_null(strstr(dom, "--cut: 50%"));
     assert_non_null(strstr(dom, "one.png left, two.png right"));
+    dom = file_read(place->arena, in(place, "told.html"), NULL, NULL);
+    if (!strstr(dom, "data-said=\"images 7; input 30%; pointer 75; blink; slider\""))
+        fail_msg("the page says %.200s", strstr(dom, "data-said"));
+    assert_null(strstr(file_read(place->arena, in(place, "browser.txt"), NULL, NULL), "CONSOLE"));
 }
 
 // A ball of one colour under an orthographic camera: both renderers give the same bytes.
@@ -435,6 +456,44 @@ static void several_scenes(void **state) {
     assert_non_null(strstr(page, "QI nets down to it"));
 }
 
+// Stopped while POV-Ray reads a scene that never ends: the page of the scene before it is whole,
+// the index names what is missing, and POV-Ray does not go on behind.
+static void interruption_leaves_whole_files(void **state) {
+    Folder *place = *state;
+    if (!reference_available()) {
+        print_message("skipped: povray is not installed\n");
+        skip();
+    }
+    FILE *f = fopen(in(place, "ball.pov"), "w");
+    fputs("#version 3.7; global_settings { assumed_gamma 1.0 }\ncamera { location -3*z }\n"
+          "sphere { 0, 1 pigment { rgb 1 } finish { ambient 1 } }\n",
+          f);
+    fclose(f);
+    // A name that no other process has, so that POV-Ray can be looked for.
+    const char *endless = arena_printf(place->arena, "endless%d", (int)getpid());
+    f = fopen(in(place, arena_printf(place->arena, "%s.pov", endless)), "w");
+    fputs("#version 3.7;\n#while (1) #local A = 1; #end\n", f);
+    fclose(f);
+    const char *command = arena_printf(
+        place->arena,
+        "cd %s && (ASAN_OPTIONS=detect_leaks=0 exec %s/" PROGRAM " ball.pov %s.pov ball2.pov "
+        "+W16 +H12 -o all >said.txt 2>&1) & pid=$!; cd %s; for i in $(seq 1200); do "
+        "[ -e all/%s/povray.txt ] && break; sleep 0.05; done; kill -INT $pid; wait $pid; "
+        "status=$?; pgrep -f '[+]I%s' && exit 99; exit $status",
+        place->folder, place->root, endless, place->folder, endless, endless);
+    int status = system(command);
+    assert_int_equal(WIFEXITED(status) ? WEXITSTATUS(status) : -1, 2);
+    const char *said = file_read(place->arena, in(place, "said.txt"), NULL, NULL);
+    assert_non_null(strstr(said, ".pov: not compared"));
+    assert_non_null(strstr(said, "qicompare: interrupted"));
+    const char *page = file_read(place->arena, in(place, "all/index.html"), NULL, NULL);
+    assert_non_null(page);
+    assert_int_equal(count_of(page, "not compared"), 2);
+    assert_non_null(strstr(page, "interrupted before it"));
+    page = file_read(place->arena, in(place, "all/ball/index.html"), NULL, NULL);
+    assert_non_null(strstr(page, "</html>"));
+}
+
 #define TEST(function) cmocka_unit_test_setup_teardown(function, create, destroy)
 
 int main(void) {
@@ -451,6 +510,7 @@ int main(void) {
         TEST(places_are_apart),
         TEST(causes_are_proved),
         TEST(several_scenes),
+        TEST(interruption_leaves_whole_files),
     };
     return cmocka_run_group_tests_name("compare", tests, NULL, NULL);
 }

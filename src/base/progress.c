@@ -17,6 +17,16 @@ Progress progress_begin(const char *what, uint64_t total, bool enabled) {
     return p;
 }
 
+static void draw(Progress *p, uint64_t done, double now) {
+    p->shown = now;
+    double share = (double)done / (double)p->total, elapsed = now - p->started;
+    fprintf(stderr, "\r%s %5.1f %%", p->what, 100.0 * share);
+    if (share > 0)
+        fprintf(stderr, ", %.0f s left", elapsed * (1 - share) / share);
+    fputs(" \033[K", stderr);
+    fflush(stderr);
+}
+
 void progress_add(Progress *p, uint64_t amount) {
     uint64_t done = __atomic_add_fetch(&p->done, amount, __ATOMIC_RELAXED);
     if (!p->on)
@@ -24,14 +34,15 @@ void progress_add(Progress *p, uint64_t amount) {
 #pragma omp critical(progress_line)
     {
         double now = progress_seconds();
-        if (now - p->shown >= 0.1) {
-            p->shown = now;
-            double share = (double)done / (double)p->total, elapsed = now - p->started;
-            fprintf(stderr, "\r%s %5.1f %%, %.0f s left \033[K", p->what, 100.0 * share,
-                    share > 0 ? elapsed * (1 - share) / share : 0.0);
-            fflush(stderr);
-        }
+        if (now - p->shown >= 0.1)
+            draw(p, done, now);
     }
+}
+
+void progress_say(Progress *p, const char *what) {
+    p->what = what;
+    if (p->on)
+        draw(p, p->done, progress_seconds());
 }
 
 void progress_end(Progress *p) {

@@ -4,13 +4,13 @@
 // differ where they do (report/places.h). Several scenes give a page each and one over all of them.
 #include "base/diag.h"
 #include "base/file.h"
+#include "base/progress.h"
 #include "options/animation.h"
 #include "options/options.h"
 #include "report/compare_page.h"
 #include "report/index_page.h"
 
 #include <errno.h>
-#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -29,7 +29,11 @@ typedef struct {
     const char *scene, *folder;
     ComparePage *page;
     Arena *arena;
+    Progress *progress;
 } Job;
+
+// The programs that a scene may need: both pictures, four that prove, two stories a place.
+static uint64_t most_tasks(const RenderOptions *o) { return 6 + 2 * (uint64_t)o->places; }
 
 // One program with some words behind those of the command line. name: of the picture and the log.
 typedef struct {
@@ -71,12 +75,14 @@ static Image *render_task(const Job *job, const Task *task, Run *run) {
     run_add(&command, arena_printf(arena, "+H%d", o->height));
     run_add(&command, "-D");
     run_add(&command, "-P");
-    if (o->verbose)
+    progress_say(job->progress, arena_printf(arena, "%s: %s", job->scene, task->title));
+    if (o->verbose && !job->progress->on)
         fprintf(stderr, "%s ...\n", task->title);
     if (task->picture)
         unlink(picture); // what is read below must be new
     *run = run_command_line(&command, task->title,
                             arena_printf(arena, "%s/%s.txt", job->folder, task->name), arena);
+    progress_add(job->progress, 1);
     if (!task->picture)
         return NULL;
     Image *image = image_read(arena, picture);
@@ -258,6 +264,8 @@ static void compare_scene(Job *job) {
     finish(job->options, page);
     if (page->place_count > 0)
         look_into(job);
+    if (run_interrupted) // while a story was told, which may fail
+        die("interrupted");
 }
 
 static void compare_pictures(const RenderOptions *o, ComparePage *page, Arena *arena) {
@@ -292,6 +300,7 @@ static void run_scene(void *context) {
     SceneTask *t = context;
     make_folder(t->job.folder);
     compare_scene(&t->job);
+    progress_end(t->job.progress);
     print_figures(t->job.page, t->job.options);
     write_page(t->job.page, t->job.folder, t->job.arena);
 }
@@ -335,6 +344,8 @@ static const char *scene_name(const RenderOptions *o, size_t index, Arena *arena
 static bool compare_scenes(const RenderOptions *o, const char *folder, Arena *arena) {
     IndexRow *rows = ARENA_ARRAY(arena, IndexRow, o->scene_count);
     bool good = true;
+    Progress progress =
+        progress_begin("comparing", most_tasks(o) * (uint64_t)o->scene_count, o->verbose);
     for (size_t i = 0; i < o->scene_count; i++) {
         Arena *own = arena_create();
         const char *name = scene_name(o, i, arena);
@@ -343,12 +354,15 @@ static bool compare_scenes(const RenderOptions *o, const char *folder, Arena *ar
                          .scene = o->scenes[i],
                          .folder = arena_printf(own, "%s/%s", folder, name),
                          .page = ARENA_NEW(own, ComparePage),
-                         .arena = own};
+                         .arena = own,
+                         .progress = &progress};
         IndexRow *row = &rows[i];
         *row =
             (IndexRow){.title = o->scenes[i], .link = arena_printf(arena, "%s/index.html", name)};
         char *message = NULL;
-        if (diag_catch(run_scene, &task, &message)) {
+        if (run_interrupted) {
+            row->failed = "interrupted before it";
+        } else if (diag_catch(run_scene, &task, &message)) {
             const ComparePage *page = task.job.page;
             row->verdict = page->verdict;
             row->difference = page->difference;
@@ -365,7 +379,9 @@ static bool compare_scenes(const RenderOptions *o, const char *folder, Arena *ar
             good = false;
         }
         arena_destroy(own);
+        progress.done = most_tasks(o) * (uint64_t)(i + 1);
     }
+    progress_end(&progress);
     const char *path = arena_printf(arena, "%s/index.html", folder);
     index_page_write(rows, o->scene_count, run_machine(arena), path);
     printf("%s\n", path);
@@ -398,15 +414,22 @@ static int check_words(const RenderOptions *o) {
     return 0;
 }
 
-static void on_interrupt(int number) {
-    (void)number;
-    _exit(2);
+// Says what is missing; what is finished stays.
+static int end_interrupted(const RenderOptions *o, const char *folder) {
+    if (o->scene_count > 1)
+        fprintf(stderr,
+                "qicompare: interrupted: the pages of the scenes that were finished are whole; the "
+                "index says which are missing\n");
+    else
+        fprintf(stderr, "qicompare: interrupted: '%s/index.html' is not written\n", folder);
+    return 2;
 }
+
+static void run_single(void *context) { compare_scene(context); }
 
 int main(int argc, char **argv) {
     diag_program("qicompare");
-    signal(SIGINT, on_interrupt);
-    signal(SIGTERM, on_interrupt);
+    run_catch_signals();
     Arena *arena = arena_create();
     RenderOptions options = options_default();
     options_read_povray_ini(PROGRAM_QICOMPARE, arena, &options);
@@ -428,16 +451,26 @@ int main(int argc, char **argv) {
         ComparePage *page = ARENA_NEW(arena, ComparePage);
         if (options.output || options.input)
             folder = output_folder(&options, arena);
-        Job job = {&options, options.input, folder, page, arena};
-        if (options.input)
-            compare_scene(&job);
-        else
+        Progress progress = progress_begin("comparing", most_tasks(&options), options.verbose);
+        Job job = {&options, options.input, folder, page, arena, &progress};
+        char *message = NULL;
+        if (options.input && !diag_catch(run_single, &job, &message)) {
+            progress_end(&progress);
+            if (run_interrupted)
+                return end_interrupted(&options, folder);
+            fprintf(stderr, "%s\n", message);
+            return 1;
+        }
+        progress_end(&progress);
+        if (!options.input)
             compare_pictures(&options, page, arena);
         print_figures(page, &options);
         if (folder)
             write_page(page, folder, arena);
         good = strcmp(page->verdict, "FAILURE") != 0;
     }
+    if (run_interrupted)
+        return end_interrupted(&options, folder);
     arena_destroy(arena);
     return good ? 0 : 1;
 }

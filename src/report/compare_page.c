@@ -256,6 +256,29 @@ static void put_places(FILE *out, const ComparePage *page, const Image *map) {
         put_place(out, page, i, map);
 }
 
+// Lines of what qirender said that name something it does not model.
+static void put_missing(FILE *out, const ComparePage *page) {
+    const char *log = page->side[1].run.log;
+    bool any = false;
+    for (const char *line = log; line && *line;) {
+        const char *end = line + strcspn(line, "\n"), *found = strstr(line, "not modelled");
+        if (found && found < end) {
+            if (!any)
+                fputs(
+                    "<h2>Not modelled</h2>\n<p>What qirender warned of is missing in its picture, "
+                    "and is the first thing to suspect where the cause is shading:</p>\n<pre>",
+                    out);
+            any = true;
+            Arena *scratch = arena_create();
+            html_text(out, arena_printf(scratch, "%.*s\n", (int)(end - line), line));
+            arena_destroy(scratch);
+        }
+        line = *end ? end + 1 : end;
+    }
+    if (any)
+        fputs("</pre>\n", out);
+}
+
 static void put_times(FILE *out, const ComparePage *page) {
     if (page->side[0].run.seconds < 0 || page->side[1].run.seconds < 0)
         return;
@@ -316,6 +339,7 @@ void compare_page_write(const ComparePage *page, const char *path) {
     put_figures(out, page);
     put_stage(out, page);
     put_map(out, differences, map, scale);
+    put_missing(out, page);
     put_places(out, page, map);
     put_times(out, page);
     put_commands(out, page);

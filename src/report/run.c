@@ -50,6 +50,23 @@ static double user_seconds(const struct rusage *use) {
     return (double)use->ru_utime.tv_sec + 1e-6 * (double)use->ru_utime.tv_usec;
 }
 
+volatile sig_atomic_t run_interrupted;
+static volatile pid_t running;
+
+static void on_signal(int number) {
+    (void)number;
+    if (run_interrupted)
+        _exit(2);
+    run_interrupted = 1;
+    if (running > 0)
+        kill(running, SIGTERM);
+}
+
+void run_catch_signals(void) {
+    signal(SIGINT, on_signal);
+    signal(SIGTERM, on_signal);
+}
+
 // The child: both outputs to the file, then the program.
 _Noreturn static void become(const Command *command, const char *log) {
     int file = open(log, O_WRONLY | O_CREAT | O_TRUNC, 0666), none = open("/dev/null", O_RDONLY);
@@ -63,21 +80,36 @@ Run run_command_line(Command *command, const char *name, const char *log, Arena 
     Run run = {.command = run_text(arena, command)};
     double start = progress_seconds();
     fflush(NULL);
+    // No signal may come between the fork and the moment when both know what to do with it.
+    sigset_t all, before;
+    sigfillset(&all);
+    sigprocmask(SIG_BLOCK, &all, &before);
     pid_t child = fork();
     if (child < 0)
         die("cannot start %s: %s", command->words[0], strerror(errno));
-    if (child == 0)
+    if (child == 0) {
+        signal(SIGINT, SIG_DFL);
+        signal(SIGTERM, SIG_DFL);
+        sigprocmask(SIG_SETMASK, &before, NULL);
         become(command, log);
+    }
+    running = child;
+    sigprocmask(SIG_SETMASK, &before, NULL);
+    if (run_interrupted)
+        kill(child, SIGTERM);
     int status;
     struct rusage use;
     while (wait4(child, &status, 0, &use) < 0)
         if (errno != EINTR)
             die("cannot wait for %s: %s", command->words[0], strerror(errno));
+    running = 0;
     run.elapsed = progress_seconds() - start;
     run.seconds = user_seconds(&use);
     run.megabytes = (double)use.ru_maxrss / 1024.0;
     const char *said = file_read(arena, log, NULL, NULL);
     run.log = said ? said : "";
+    if (run_interrupted)
+        die("interrupted");
     if (WIFSIGNALED(status) || (WIFEXITED(status) && WEXITSTATUS(status) == 2))
         die("%s was interrupted or misused:\n%s\n%s", name, run.command, tail(run.log));
     if (WEXITSTATUS(status) == 127)

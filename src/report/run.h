@@ -5,6 +5,7 @@
 
 #include "base/arena.h"
 
+#include <signal.h>
 #include <stddef.h>
 
 enum { RUN_MOST_WORDS = 1024 };
@@ -30,6 +31,11 @@ typedef struct {
 // Runs the command with both its outputs in the file `log`, and waits. name: what to call it in
 // messages. Dies if it cannot be run, fails, or is interrupted.
 Run run_command_line(Command *command, const char *name, const char *log, Arena *arena);
+
+// From here on SIGINT and SIGTERM end the program that runs (run_command_line then dies) and set
+// run_interrupted; a second one ends this program at once.
+extern volatile sig_atomic_t run_interrupted;
+void run_catch_signals(void);
 
 const char *run_find_qirender(Arena *arena); // its path; dies if it is not there
 const char *run_machine(Arena *arena);       // the processor and its cores, for tables of times

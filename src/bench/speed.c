@@ -148,15 +148,19 @@ void speed_methods(const SpeedOptions *o) {
                         "qi, packets of 16", tolerance, trace_set_packets, set, share, {{0}}}));
         }
     }
+    uint64_t views = o->view >= 0 ? 1 : VIEW_COUNT;
+    Progress progress =
+        progress_begin("methods", views * (uint64_t)o->rounds * entries.count, true);
     for (int view = 0; view < VIEW_COUNT; view++) {
         if (o->view >= 0 && o->view != view)
             continue;
         const Ray *rays = view_rays(arena, (View)view, box);
         for (int round = 0; round < o->rounds; round++) {
-            for (size_t i = 0; i < entries.count; i++)
+            for (size_t i = 0; i < entries.count; i++, progress_add(&progress, 1))
                 measure(&entries.items[i], (View)view, round, rays);
         }
     }
+    progress_end(&progress);
     printf("qi with the instructions %s.\n\n", patch_isa_name());
     printf("| nearest hits, million rays a second (share of Embree's single rays; qi's packets: of "
            "its "
@@ -284,7 +288,8 @@ void speed_picture(const SpeedOptions *o) {
         if (!embree_missing())
             cuts_for_error(points, errors[e], cuts);
 #endif
-        for (int round = 0; round < o->rounds; round++) {
+        Progress progress = progress_begin("picture", (uint64_t)o->rounds, true);
+        for (int round = 0; round < o->rounds; round++, progress_add(&progress, 1)) {
             qi[round] = qi_picture(points, (PatchPrepare)o->prepare, errors[e], rays);
 #if EMBREE_HEADERS
             // What takes longer than this once is not measured again.
@@ -294,6 +299,7 @@ void speed_picture(const SpeedOptions *o) {
                 peer[round] = embree_picture(points, cuts, rays);
 #endif
         }
+        progress_end(&progress);
         Picture ours = median_picture(qi, o->rounds);
         print_picture("qi", errors[e], ours);
 #if EMBREE_HEADERS
@@ -346,11 +352,13 @@ void speed_lattices(const SpeedOptions *o) {
         clock = progress_seconds() - clock;
         double used[MAX_ROUNDS];
         long hits = 0;
-        for (int round = 0; round < o->rounds; round++) {
+        Progress progress = progress_begin("lattice", (uint64_t)o->rounds, true);
+        for (int round = 0; round < o->rounds; round++, progress_add(&progress, 1)) {
             start = process_seconds();
             hits = trace_set(set, rays, VIEW_RAYS);
             used[round] = process_seconds() - start;
         }
+        progress_end(&progress);
         printf("| %zu | %s | %.3f | %.3f | %.1f | %.1f %% | %.0f |\n", size,
                patch_prepare_name(how), prepare, clock, (double)patchset_memory(set) * 1e-6,
                100.0 * (double)hits / VIEW_RAYS, 1e9 * median(used, o->rounds) / VIEW_RAYS);
@@ -365,7 +373,8 @@ void speed_threads(const SpeedOptions *o) {
     const Ray *rays = view_rays(arena, VIEW_ZOOM, points_bounds(points, 16));
     PatchSet *set = committed(points, TEAPOT_PATCHES, METHOD_QI, (PatchPrepare)o->prepare, 1e-9);
     double used[2][MAX_ROUNDS];
-    for (int round = 0; round < o->rounds; round++) {
+    Progress progress = progress_begin("threads", (uint64_t)o->rounds, true);
+    for (int round = 0; round < o->rounds; round++, progress_add(&progress, 1)) {
         for (int threads = 1; threads <= 2; threads++) {
             double start = progress_seconds();
 #pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
@@ -374,6 +383,7 @@ void speed_threads(const SpeedOptions *o) {
             used[threads - 1][round] = progress_seconds() - start;
         }
     }
+    progress_end(&progress);
     double one = median(used[0], o->rounds), two = median(used[1], o->rounds);
     printf(
         "Zoom at 1e-9 takes %.3f s of the clock with one thread and %.3f s with two: %.2f times as "

@@ -9,6 +9,7 @@
 #include "patch/embree.h"
 #include "converter/convert.h"
 #include "render/footprint.h"
+#include "report/run.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -171,6 +172,14 @@ static int count_holes(const Judge *judge, const SweepShared *shared) {
     return holes;
 }
 
+// t and the coordinates of both rays' starts are rounded to half a unit in the last place each, and
+// added up in both hits: four units of the largest of them. In diameters of the patch.
+static double rounding_of(const Judge *judge, const SweepLook *truth) {
+    Vec3 eye = judge->footprint.eye;
+    double most = fmax(truth->t, fmax(fabs(eye.x), fmax(fabs(eye.y), fabs(eye.z))));
+    return 4.0 * 0x1p-52 * most / judge->diameter[truth->object];
+}
+
 static void judge_hits(const Judge *judge, const SweepShared *shared, SweepResult *r) {
     size_t pixels = (size_t)judge->options->width * (size_t)judge->options->height, both = 0;
     size_t wrong = 0, patches = 0;
@@ -190,6 +199,7 @@ static void judge_hits(const Judge *judge, const SweepShared *shared, SweepResul
         double share = distance / judge->diameter[truth->object];
         double pixel = fmax(judge->footprint.angle * truth->t, judge->footprint.width);
         r->position_max = fmax(r->position_max, share);
+        r->rounding = fmax(r->rounding, rounding_of(judge, truth));
         r->position_pixels = fmax(r->position_pixels, distance / pixel);
         r->normal_max = fmax(r->normal_max, angle);
         squares += share * share;
@@ -269,7 +279,7 @@ static void measure_round(const Judge *judge, Scene *scene, MeasuredList *list, 
     for (size_t i = 0; i < list->count; i++, progress_add(progress, 1)) {
         Measured *m = &list->items[i];
         SweepResult *r = &sweep->results[i];
-        if (m->failed)
+        if (m->failed || run_interrupted)
             continue;
         Image *picture = NULL;
         if (m->point.povray) {
@@ -285,7 +295,7 @@ static void measure_round(const Judge *judge, Scene *scene, MeasuredList *list, 
             m->picture[round] = shared->picture;
             m->megabytes = shared->megabytes;
         }
-        if (m->failed || round > 0)
+        if (m->failed || round > 0 || run_interrupted)
             continue;
         if (!m->point.povray) {
             picture = picture_of(shared, o, scratch);
@@ -328,6 +338,8 @@ Sweep *sweep_run(const SweepOptions *o, Arena *arena) {
     SweepPoint exact = {.method = METHOD_QI, .tolerance = TRUTH, .steps = -1},
                facets = {.method = METHOD_FACETS, .tolerance = 1e-9, .steps = -1};
     const char *why = sweep_measure(scene, o, &exact, NULL, truth);
+    if (run_interrupted)
+        return NULL;
     if (why)
         die("'%s' cannot be measured: its exact picture is %s", o->scene, why);
     Camera smooth = scene->camera;
@@ -364,5 +376,5 @@ Sweep *sweep_run(const SweepOptions *o, Arena *arena) {
     array_free(&list);
     sweep_shared_destroy(truth, o->width, o->height);
     sweep_shared_destroy(shared, o->width, o->height);
-    return sweep;
+    return run_interrupted ? NULL : sweep;
 }

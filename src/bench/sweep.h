@@ -51,6 +51,7 @@ typedef struct {
     double megabytes;       // at the peak, beyond what the scene that was read takes
     // Of hits, where both met the same patch; not of POV-Ray. Distances along the true normal.
     double position_max, position_rms; // in diameters of the patch
+    double rounding;                   // of the hits' own numbers at most, diameters
     double position_pixels;            // the largest, in pixels there
     double normal_max, normal_rms;     // degrees
     double wrong;                      // share of pixels that met something else, or nothing
@@ -76,7 +77,7 @@ typedef struct {
     Image *picture; // the truth
 } Sweep;
 
-// Dies when the scene cannot be read. Memory in arena.
+// Dies when the scene cannot be read. NULL when it was interrupted (report/run.h). Memory in arena.
 Sweep *sweep_run(const SweepOptions *options, Arena *arena);
 
 // "qi 1e-09", "qi prepared light 1e-09", "povray u_steps 4"

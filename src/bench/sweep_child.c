@@ -10,6 +10,7 @@
 #include <math.h>
 #include <omp.h>
 #include <sched.h>
+#include <signal.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/mman.h>
@@ -166,6 +167,8 @@ _Noreturn static void be_child(const Scene *scene, const SweepOptions *o, const 
     const struct rlimit limit = {seconds, seconds + 1};
     setrlimit(RLIMIT_CPU, &limit);
     omp_set_num_threads(1);
+    signal(SIGINT, SIG_DFL);
+    signal(SIGTERM, SIG_DFL);
     measure(scene, o, point, edges, shared);
     fflush(NULL);
     _exit(0);

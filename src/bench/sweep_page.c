@@ -98,7 +98,7 @@ static void write_script(const Sweep *s, bool picture, const char *svg, const ch
     fprintf(script,
             "set terminal svg size 860,600 dynamic font 'sans-serif,13' background '#ffffff'\n"
             "set output '%s'\nset logscale xy\nset format x '10^{%%L}'\nset grid lc '#dddddd'\n"
-            "set key bmargin center horizontal maxcols 3 noenhanced\nset ylabel 'seconds to the "
+            "set key tmargin center horizontal maxcols 3 noenhanced\nset ylabel 'seconds to the "
             "picture'\n"
             "set xlabel '%s'\n",
             svg,
@@ -241,8 +241,8 @@ static void put_scene(FILE *out, const Sweep *s, const char *folder) {
     html_text(out, slash ? slash + 1 : s->scene);
     fprintf(out,
             "</h2>\n<p class=\"soft\">%u patches, %zu shared edges, %d &#215; %d pixels, one "
-            "pinned thread, median of %d rounds in turn. The truth is qi at 1e-14.</p>\n",
-            s->patches, s->edges, s->width, s->height, s->rounds);
+            "pinned thread, median of %d round%s in turn. The truth is qi at 1e-14.</p>\n",
+            s->patches, s->edges, s->width, s->height, s->rounds, s->rounds == 1 ? "" : "s");
     if (s->no_povray) {
         fputs("<p>POV-Ray&#8217;s own points are missing: ", out);
         html_text(out, s->no_povray);
@@ -274,7 +274,10 @@ void sweep_page_write(const Sweep *const *sweeps, size_t count, const char *comm
         out,
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
         "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
-        "<title>Speed against accuracy</title>\n<style>\n%s.curve svg{width:100%%;height:auto}"
+        "<title>Speed against accuracy</title>\n<style>\n%s.curve{overflow-x:auto}.curve "
+        "svg{width:100%%;min-width:36rem;height:auto}"
+        "@media print{.curve svg{min-width:0}.scroll{overflow:visible}.scroll "
+        "table{font-size:6.5pt}}"
         "tr.front th,tr.front td{font-weight:600}figure{margin-bottom:1.2rem}\n</style>\n</head>\n"
         "<body>\n<main>\n<header>\n<h1>Speed against accuracy</h1>\n<p class=\"soft\">",
         page_style);

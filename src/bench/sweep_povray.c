@@ -86,12 +86,16 @@ const char *sweep_povray_begin(const SweepOptions *o, SweepCopy *copy, Arena *ar
         script = arena_printf(arena, "%s && cp -L %s/*.inc %s/scene 2>/dev/null; true", script,
                               quote(arena, o->library_paths[i]), copy->folder);
     shell(arena, copy, script);
-    const char *said = shell(arena, copy, "povray --version 2>&1 | head -1");
+    const char *said =
+        shell(arena, copy, "povray --version 2>&1 | grep -o -m1 'POV-Ray [0-9][^ ]*'");
     copy->version = arena_printf(arena, "%.*s", (int)strcspn(said, "\n"), said);
-    Render reading = {o, copy, arena, 1, 1, {0}};
+    Render reading = {o, copy, arena, 1, 1, {0}},
+           plain = {o, copy, arena, o->width, o->height, {0}};
     const char *why = render_at(&reading, 0);
+    if (!why)
+        why = render_at(&plain, 0);
     copy->seconds = reading.run.seconds;
-    copy->megabytes = reading.run.megabytes;
+    copy->megabytes = plain.run.megabytes;
     if (why)
         sweep_povray_end(copy);
     return why ? arena_printf(arena, "POV-Ray does not read the scene: %s", why) : NULL;

@@ -10,7 +10,8 @@ typedef struct {
     char folder[64];
     const char *scene;   // its name there
     const char *version; // of POV-Ray
-    // Processor time and peak of memory for reading the scene with two triangles a patch.
+    // With two triangles a patch: processor time of a picture of one pixel, so of reading the
+    // scene; peak of memory of a whole picture.
     double seconds, megabytes;
 } SweepCopy;
 

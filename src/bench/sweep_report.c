@@ -53,7 +53,7 @@ typedef struct {
     double value;
 } Column;
 
-enum { COLUMNS = 22 };
+enum { COLUMNS = 23 };
 
 static void columns_of(const SweepResult *r, Column out[COLUMNS]) {
     const Column columns[COLUMNS] = {
@@ -71,6 +71,7 @@ static void columns_of(const SweepResult *r, Column out[COLUMNS]) {
         {"position_max_diameters", r->position_max},
         {"position_rms_diameters", r->position_rms},
         {"position_max_pixels", r->position_pixels},
+        {"rounding_diameters", r->rounding},
         {"normal_max_degrees", r->normal_max},
         {"normal_rms_degrees", r->normal_rms},
         {"wrong_hits_share", r->wrong},

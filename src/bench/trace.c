@@ -4,10 +4,12 @@
 #include "bench/trace.h"
 
 #include "base/diag.h"
+#include "base/progress.h"
 
 #include <errno.h>
 #include <math.h>
 #include <string.h>
+#include <unistd.h>
 
 enum {
     PIECE = 256,
@@ -43,6 +45,8 @@ void trace_rays(RayFile *file, const PatchSet *set, int threads, FILE *out) {
     Ray *rays = ARENA_ARRAY(arena, Ray, BATCH);
     PieceText *texts = ARENA_ARRAY(arena, PieceText, PIECES);
     size_t count;
+    // On a terminal the answers themselves are the progress.
+    Progress progress = progress_begin("tracing", ray_file_ray_count(file), !isatty(fileno(out)));
     while ((count = ray_file_next(file, rays, BATCH)) > 0) {
         int pieces = (int)((count + PIECE - 1) / PIECE);
 #pragma omp parallel for schedule(dynamic) num_threads(threads)
@@ -52,7 +56,9 @@ void trace_rays(RayFile *file, const PatchSet *set, int threads, FILE *out) {
         }
         for (int i = 0; i < pieces; i++)
             fwrite(texts[i].text, 1, texts[i].length, out);
+        progress_add(&progress, count);
     }
+    progress_end(&progress);
     if (fflush(out) != 0 || ferror(out))
         die("cannot write the hits: %s", strerror(errno));
     arena_destroy(arena);

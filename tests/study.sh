@@ -1,0 +1,27 @@
+#!/bin/sh
+# Writes the accuracy study into README.md, between <!-- study --> and <!-- end of study -->. Argument:
+# rounds (an odd number, 1). The scenes that are there are measured; the others are named.
+set -eu
+cd "$(dirname "$0")/.."
+folder=$(mktemp -d) found=
+trap 'rm -rf "$folder"' EXIT
+for scene in /usr/share/doc/povray/examples/advanced/teapot/teapot.pov ../shared/corpus/fmunoz/fruit_only.pov; do
+    if [ -f "$scene" ]; then
+        found="$found $scene"
+    else
+        echo "left out, it is not here: $scene" >&2
+    fi
+done
+# shellcheck disable=SC2086
+build/qibench sweep --study --rounds "${1:-1}" $found >"$folder/study"
+cat "$folder/study"
+awk -v file="$folder/study" '
+    $0 == "<!-- end of study -->" { inside = 0 }
+    !inside { print }
+    $0 == "<!-- study -->" {
+        inside = 1
+        print ""
+        while ((getline line <file) > 0) print line
+        print ""
+    }' README.md >"$folder/README.md"
+cp "$folder/README.md" README.md

@@ -124,19 +124,27 @@ static void wrong_usage_is_refused(void **state) {
         const char *words, *message;
     } cases[] = {
         {"", "the first word says what to do"},
+        {"guess", "the first word says what to do"},
         {"trace", "no file given"},
         {"trace a b", "what is 'b'?"},
-        {"trace --method", "--method needs a value"},
-        {"trace --method=best a", "there is no method 'best'; the methods are qi qi-paper"},
-        {"trace --tolerance 2 a", "the tolerance is a share"},
-        {"trace --threads -1 a", "--threads takes a number"},
-        {"trace --isa mmx a", "--isa takes scalar, avx2 or avx512"},
-        {"trace --prepare all a", "the ways to prepare are full, light and none"},
-        {"trace --quick a", "there is no option '--quick' here"},
-        {"trace --rounds 3 a", "there is no option '--rounds' here"},
-        {"speed --rounds 4", "--rounds takes an odd number"},
-        {"speed --view top", "the views are full, zoom and scattered"},
+        {"trace --method", "a value must follow"},
+        {"trace --method=best a", "the methods are qi, qi-paper"},
+        {"trace --tolerance 2 a", "a share of the patch's diameter"},
+        {"trace --tolerance 1px a", "without a camera there are no pixels"},
+        {"trace --threads -1 a", "a whole number from 0 to 512"},
+        {"trace --isa mmx a", "the instruction sets are scalar, avx2, avx512"},
+        {"trace --prepare all a", "the ways are full, light, none"},
+        {"trace --quick a", "'--quick'"},
+        {"trace --rounds 3 a", "'--rounds'"},
+        {"speed --threads 2", "'--threads'"},
+        {"speed --rounds 4", "an odd number"},
+        {"speed --share 0", "a number from 0.0001 to 1"},
+        {"speed --view top", "the views are full, zoom, scattered"},
         {"speed fast", "the tables are methods, picture, lattices and threads"},
+        {"sweep", "no scene given"},
+        {"sweep --size 4x4 a.pov", "8x8 to 8192x8192"},
+        {"sweep --povray maybe a.pov", "on or off"},
+        {"sweep +W640 a.pov", "'+W640'"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         const char *log;
@@ -323,6 +331,13 @@ static void speed_prints_tables(void **state) {
         if (!at || strtod(at + strlen(rows[i]) + 3, NULL) <= 0.0)
             fail_msg("no row '%s' with a number in\n%s", rows[i], log);
     }
+    // How far it is shows on a terminal only.
+    assert_null(strstr(log, "s left"));
+    assert_int_equal(run_command(&log,
+                                 "script -qec 'build/qibench speed methods --rounds 1 --share "
+                                 "1e-3' /dev/null"),
+                     0);
+    assert_non_null(strstr(log, "s left"));
 }
 
 int main(void) {

@@ -64,6 +64,13 @@ static void print_help(OptionsProgram program) {
         "prints how far they differ and writes a page that shows it. --method, --tolerance, "
         "--strict\n"
         "and other words with two dashes go to qirender only.\n",
+        "usage: qibench trace [options] FILE\n"
+        "       qibench speed [options] methods | picture | lattices | threads ...\n"
+        "       qibench sweep [options] scene.pov ...\n"
+        "trace: the nearest hits of the rays in FILE. speed: rays against the teapot, in tables. "
+        "sweep:\n"
+        "what accuracy costs in whole scenes. The manual page has more (qibench --man | man -l "
+        "-).\n",
     };
     printf("%s", usage[program]);
     const OptionRow *heading = NULL;
@@ -77,6 +84,10 @@ static void print_help(OptionsProgram program) {
             heading = NULL;
             print_row(row);
         }
+    }
+    if (program == PROGRAM_QIBENCH) {
+        printf("\nExit status: 0 done, 1 wrong input, 2 wrong usage or interrupted.\n");
+        return;
     }
     printf("\nThe value is glued to its switch: +W640. Keyword=value works for all of POV-Ray's\n"
            "keywords of these switches. Later words win. Exit status: 0 done, 1 wrong input%s,\n"

@@ -45,6 +45,22 @@ static const struct {
      "the differences, and the worst places with the reason of each.\n",
      ".TP\n.I folder/index.html\nThe page; of several scenes, the table over their pages.\n",
      ".BR qirender (1),\n.BR idiff (1),\n.BR povray (1)\n"},
+    {"measure rays against patches, and what accuracy costs",
+     "\\fBtrace\\fR [\\fIoptions\\fR] \\fIfile\\fR | \\fBspeed\\fR [\\fIoptions\\fR] "
+     "\\fBmethods\\fR|\\fBpicture\\fR|\\fBlattices\\fR|\\fBthreads\\fR ... | "
+     "\\fBsweep\\fR [\\fIoptions\\fR] \\fIscene.pov\\fR ...",
+     ".B trace\nanswers rays against bicubic patches. Its file is text: `patches N', then 16 lines "
+     "`x y z' a\npatch; `rays M', then M lines `ox oy oz dx dy dz'. One line a ray: `t u v patch "
+     "bound' of the\nnearest hit (t in lengths of the direction, patches counted from 0), or "
+     "`miss'. A hit within its\nbound of the ray's origin is the surface that the ray leaves, and "
+     "is not reported.\n.PP\n.B speed\nmeasures rays against the teapot of POV-Ray's examples, in "
+     "turn with Embree's triangles where Embree\nis installed, and prints tables in "
+     "Markdown.\n.PP\n.B sweep\nrenders each scene by every method at several tolerances, with "
+     "POV-Ray's triangles cut more and\nmore, and by povray(1) itself, and prints what each costs "
+     "and how far it is from the truth, which\nis qi at 1e-14.\n",
+     ".TP\n.I folder/index.html\nOf\n.BR \\-\\-html :\nthe page; sweep.csv and sweep.json have "
+     "its figures.\n",
+     ".BR qirender (1),\n.BR qicompare (1),\n.BR povray (1)\n"},
 };
 
 // Text for roff: no line may begin with a dot or a quote, dashes and backslashes are escaped.
@@ -108,10 +124,11 @@ void options_manual(OptionsProgram program, FILE *out) {
     fprintf(out, " 1 \"\" \"qipov %s\" \"User Commands\"\n", QIPOV_VERSION);
     fprintf(out, ".SH NAME\n%s \\- %s\n.SH SYNOPSIS\n.B %s\n%s\n.SH DESCRIPTION\n%s", name,
             pages[program].summary, name, pages[program].synopsis, pages[program].description);
-    fputs(
-        ".PP\nThe value is glued to its switch: +W640. Keyword=value is the form of INI files, and "
-        "works on the\ncommand line too. Later words win.\n",
-        out);
+    if (program != PROGRAM_QIBENCH)
+        fputs(".PP\nThe value is glued to its switch: +W640. Keyword=value is the form of INI "
+              "files, and "
+              "works on the\ncommand line too. Later words win.\n",
+              out);
     const OptionRow *heading = NULL;
     for (size_t i = 0; i < option_row_count; i++) {
         const OptionRow *row = &option_rows[i];
@@ -149,5 +166,8 @@ void options_completion(OptionsProgram program, FILE *out) {
         "' -- \"$word\"));;\n    *)\n        COMPREPLY=($(compgen -f -X '!*.@(pov|json|ini%s)' -- "
         "\"$word\") $(compgen -d -S / -- \"$word\"));;\n    esac\n}\n"
         "shopt -s extglob\ncomplete -o nospace -F _%s %s\n",
-        program == PROGRAM_QICOMPARE ? "|png|exr|tif|tga" : "", name, name);
+        program == PROGRAM_QICOMPARE ? "|png|exr|tif|tga"
+        : program == PROGRAM_QIBENCH ? "|txt"
+                                     : "",
+        name, name);
 }

@@ -46,12 +46,13 @@ RenderOptions options_default(void) {
         .frame_step = 1,
         .fail = 1e-6,
         .warn = 1e-6,
+        .bench = {.share = 1.0, .patches = 1000000, .patience = 60.0, .povray = true},
     };
 }
 
 const char *option_program_name(OptionsProgram program) {
     // ORDER program
-    static const char *const names[] = {"qirender", "pov2qi", "qicompare"};
+    static const char *const names[] = {"qirender", "pov2qi", "qicompare", "qibench"};
     return names[program];
 }
 
@@ -167,6 +168,11 @@ static bool read_one(Parse *parse, char **argv, int *used) {
         parse->options->show_version = true;
         return true;
     }
+    if (parse->program == PROGRAM_QIBENCH && word[0] != '-' && word[0] != '+') {
+        BenchOptions *bench = &parse->options->bench;
+        bench->words[bench->word_count++] = word;
+        return true;
+    }
     if (word[0] == '-' && word[1] == '-')
         return option_word(parse, word, next, used);
     if ((word[0] == '+' || word[0] == '-') && word[1])
@@ -178,13 +184,34 @@ static bool read_one(Parse *parse, char **argv, int *used) {
     return option_name(parse, word);
 }
 
+// qibench's first word. --help and its like stand without one.
+static bool read_command(const Parse *parse, int argc, char **argv) {
+    // ORDER bench_command
+    static const char *const names[BENCH_COMMANDS] = {"trace", "speed", "sweep"};
+    BenchOptions *bench = &parse->options->bench;
+    for (int i = 0; argc > 1 && i < BENCH_COMMANDS; i++)
+        if (strcmp(argv[1], names[i]) == 0) {
+            bench->command = (BenchCommand)i;
+            return true;
+        }
+    if (argc > 1 && argv[1][0] == '-')
+        return true;
+    return option_refuse(parse, argc > 1 ? argv[1] : "qibench",
+                         "the first word says what to do: trace, speed or sweep");
+}
+
 bool options_parse(OptionsProgram program, int argc, char **argv, Arena *arena,
                    RenderOptions *options) {
     Parse parse = {.program = program, .options = options, .arena = arena};
     options->shared = ARENA_ARRAY(arena, const char *, (size_t)argc + 1);
     options->own = ARENA_ARRAY(arena, const char *, (size_t)argc + 1);
     options->scenes = ARENA_ARRAY(arena, const char *, (size_t)argc + 1);
-    for (int i = 1, used; i < argc; i += used) {
+    if (program == PROGRAM_QIBENCH)
+        options->bench.words = ARENA_ARRAY(arena, const char *, (size_t)argc + 1);
+    bool commanded = program == PROGRAM_QIBENCH && argc > 1 && argv[1][0] != '-';
+    if (program == PROGRAM_QIBENCH && !read_command(&parse, argc, argv))
+        return false;
+    for (int i = commanded ? 2 : 1, used; i < argc; i += used) {
         if (strcmp(argv[i], "--") == 0) {
             if (program != PROGRAM_QICOMPARE)
                 return option_refuse(&parse, argv[i], "nothing may follow it in this program");

@@ -74,6 +74,24 @@ typedef enum {
     LIMIT_COUNT,
 } Limit;
 
+// ORDER bench_command (names in options.c): what qibench is to do, its first word
+typedef enum { BENCH_TRACE, BENCH_SPEED, BENCH_SWEEP, BENCH_COMMANDS } BenchCommand;
+
+typedef struct {
+    BenchCommand command;
+    const char **words; // bare names: a file, tables, scenes
+    size_t word_count;
+    int rounds; // odd; 0: not given
+    bool method_given, tolerance_given;
+    double share;     // of the rays, 1e-4..1
+    const char *view; // NULL: all
+    int patches;      // the most of the lattices
+    const char *html; // a folder; NULL: no page
+    double patience;  // seconds, from 1 on
+    bool povray;      // run POV-Ray too
+    bool study;       // print the study instead of the table
+} BenchOptions;
+
 typedef struct {
     const char *input;   // +I, Input_File_Name=, or a bare name ending in .pov or .json; NULL: none
     const char *output;  // +O as given; NULL: beside the input; qicompare: a folder
@@ -131,6 +149,7 @@ typedef struct {
     double tolerance;     // --tolerance, relative to the patch (PatchSetOptions)
     double pixels;        // the same in pixels, in place of it; 0: not given
     int pixel[2];         // --pixel: column and row from 0; -1: none
+    bool explain;         // --explain
     unsigned aovs;        // --aov: bit 1 << AovKind each
     bool strict;
     bool patch_solids; // closed unions of patches with an interior are solids
@@ -151,6 +170,7 @@ typedef struct {
     size_t shared_count;
     const char **own; // the words for qirender alone (--method ...), as given
     size_t own_count;
+    BenchOptions bench;         // qibench only
     const char *povray_ini;     // the one that was read; NULL: none
     const char *include_header; // read before the scene; NULL: none
     const char *create_ini;     // where to write the settings; NULL: nowhere
@@ -159,7 +179,21 @@ typedef struct {
 } RenderOptions;
 
 // ORDER program: which words a program takes
-typedef enum { PROGRAM_QIRENDER, PROGRAM_POV2QI, PROGRAM_QICOMPARE } OptionsProgram;
+typedef enum {
+    PROGRAM_QIRENDER,
+    PROGRAM_POV2QI,
+    PROGRAM_QICOMPARE,
+    PROGRAM_QIBENCH,
+} OptionsProgram;
+
+// The named tolerances, the coarsest first: points of the curve of time against error; README has
+// what they were measured to give.
+typedef struct {
+    const char *name;
+    double tolerance, pixels; // as in RenderOptions
+} Accuracy;
+enum { ACCURACY_COUNT = 4 };
+extern const Accuracy options_accuracies[ACCURACY_COUNT];
 
 RenderOptions options_default(void);
 const char *options_limit_name(Limit limit);

@@ -2,6 +2,8 @@
 // The options themselves (facts: sdl 5.2), and the few whose values need a look of their own.
 #include "options/table.h"
 
+#include "options/table_bench.h"
+
 #include <ctype.h>
 #include <math.h>
 #include <stdio.h>
@@ -13,7 +15,7 @@
 // ---- values that are more than a number
 // -----------------------------------------------------------
 
-static bool complain(Parse *parse, const char *what) {
+bool option_complain(Parse *parse, const char *what) {
     snprintf(parse->why, sizeof parse->why, "%s", what);
     return false;
 }
@@ -24,8 +26,8 @@ static bool apply_antialias(Parse *parse, const OptionRow *row, bool on, const c
     double threshold;
     if (*value) {
         if (strncmp(value, "0.", 2) != 0 || !option_number(value, &threshold))
-            return complain(parse,
-                            "the threshold must be written with a leading \"0.\", as in +A0.3");
+            return option_complain(
+                parse, "the threshold must be written with a leading \"0.\", as in +A0.3");
         parse->options->antialias_threshold = threshold;
     }
     parse->options->antialias = on;
@@ -43,7 +45,7 @@ static bool apply_jitter(Parse *parse, const OptionRow *row, bool on, const char
     double amount;
     if (*value) {
         if (!option_number(value, &amount))
-            return complain(parse, "the amount must be a number, as in +J0.5");
+            return option_complain(parse, "the amount must be a number, as in +J0.5");
         parse->options->jitter_amount = fmin(fmax(amount, 0.0), 1.0);
     }
     parse->options->jitter = on;
@@ -69,10 +71,10 @@ static bool read_format(Parse *parse, const char *value) {
         int bits = o->bits;
         bool grey = strcasecmp(value + 1, "g") == 0;
         if (grey && !types[i].grayscale)
-            return complain(parse, "'g' (greyscale) goes with N (PNG) and P (PPM) only");
+            return option_complain(parse, "'g' (greyscale) goes with N (PNG) and P (PPM) only");
         if (value[1] && !grey && !option_integer(value + 1, &bits))
-            return complain(parse,
-                            "after the type letter comes a number of bits or 'g', as in +FN16");
+            return option_complain(
+                parse, "after the type letter comes a number of bits or 'g', as in +FN16");
         o->format = types[i].format;
         o->compressed = types[i].compressed;
         o->grayscale = grey;
@@ -80,9 +82,9 @@ static bool read_format(Parse *parse, const char *value) {
         o->bits = bits < 5 ? 5 : bits > 16 ? 16 : bits;
         return true;
     }
-    return complain(parse,
-                    "the type letter is one of N (PNG), T, C (TGA), P (PPM), B (BMP), J (JPEG),"
-                    " E (EXR), H (HDR)");
+    return option_complain(
+        parse, "the type letter is one of N (PNG), T, C (TGA), P (PPM), B (BMP), J (JPEG),"
+               " E (EXR), H (HDR)");
 }
 
 static bool apply_format(Parse *parse, const OptionRow *row, bool on, const char *value) {
@@ -114,7 +116,7 @@ static bool apply_file_gamma(Parse *parse, const OptionRow *row, bool on, const 
     (void)row, (void)on;
     double gamma = 0;
     if (strcasecmp(value, "srgb") != 0 && (!option_number(value, &gamma) || gamma < 0.01))
-        return complain(parse, "the gamma is a positive number or sRGB");
+        return option_complain(parse, "the gamma is a positive number or sRGB");
     parse->options->file_gamma = gamma;
     return true;
 }
@@ -127,7 +129,7 @@ static bool apply_declare(Parse *parse, const OptionRow *row, bool on, const cha
     for (const char *p = value; equals && p < equals; p++)
         named = named && (isalnum((unsigned char)*p) || *p == '_');
     if (!equals || !named || !option_number(equals + 1, &number))
-        return complain(parse, "it is written Declare=Name=number");
+        return option_complain(parse, "it is written Declare=Name=number");
 
     // POV-Ray hands the value on with six digits.
     char digits[40];
@@ -155,7 +157,7 @@ static bool apply_library(Parse *parse, const OptionRow *row, bool on, const cha
     (void)row, (void)on;
     RenderOptions *o = parse->options;
     if (!*value)
-        return complain(parse, "it needs a folder, as in +Linclude");
+        return option_complain(parse, "it needs a folder, as in +Linclude");
     add_path(parse, &o->library_paths, &o->library_path_count, value);
     return true;
 }
@@ -165,7 +167,7 @@ static bool apply_allow_write(Parse *parse, const OptionRow *row, bool on, const
     RenderOptions *o = parse->options;
     struct stat st;
     if (stat(value, &st) != 0 || !S_ISDIR(st.st_mode))
-        return complain(parse, "there is no such folder");
+        return option_complain(parse, "there is no such folder");
     add_path(parse, &o->write_folders, &o->write_folder_count, value);
     return true;
 }
@@ -174,7 +176,7 @@ static bool apply_clock(Parse *parse, const OptionRow *row, bool on, const char 
     (void)row, (void)on;
     double clock;
     if (!option_number(value, &clock))
-        return complain(parse, "the clock must be a number, as in +K0.5");
+        return option_complain(parse, "the clock must be a number, as in +K0.5");
     parse->options->clock = (double)(float)clock;
     parse->options->clock_given = true;
     return true;
@@ -185,7 +187,7 @@ static bool apply_float(Parse *parse, const OptionRow *row, bool on, const char 
     (void)on;
     double number;
     if (!option_number(value, &number))
-        return complain(parse, "a number must follow");
+        return option_complain(parse, "a number must follow");
     *(double *)(void *)((char *)parse->options + row->offset) = (double)(float)number;
     return true;
 }
@@ -233,7 +235,7 @@ static bool apply_block_size(Parse *parse, const OptionRow *row, bool on, const 
     (void)row, (void)on;
     int size;
     if (!option_integer(value, &size) || size < 4)
-        return complain(parse, "tiles are at least 4 pixels wide, as in +BS32");
+        return option_complain(parse, "tiles are at least 4 pixels wide, as in +BS32");
     parse->options->block_size = size;
     return true;
 }
@@ -242,8 +244,8 @@ static bool apply_version(Parse *parse, const OptionRow *row, bool on, const cha
     (void)row, (void)on;
     double version;
     if (!option_number(value, &version) || version < 1.0 || version > 3.8)
-        return complain(parse,
-                        "the version of the language lies between 1.0 and 3.8, as in +MV3.7");
+        return option_complain(
+            parse, "the version of the language lies between 1.0 and 3.8, as in +MV3.7");
     parse->options->version = (int)lround(100.0 * version);
     return true;
 }
@@ -252,7 +254,7 @@ static bool apply_display(Parse *parse, const OptionRow *row, bool on, const cha
     (void)row;
     if (strspn(value, "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789") !=
         strlen(value))
-        return complain(parse, "after +D come letters for the display");
+        return option_complain(parse, "after +D come letters for the display");
     parse->options->display = on;
     return true;
 }
@@ -268,7 +270,7 @@ static bool apply_dither_method(Parse *parse, const OptionRow *row, bool on, con
             parse->options->dither_method = (DitherMethod)i;
             return true;
         }
-    return complain(parse, "the methods of dithering are B2, B3, B4, D1, D2 and FS");
+    return option_complain(parse, "the methods of dithering are B2, B3, B4, D1, D2 and FS");
 }
 
 // +TH, -TH, +THFS: the flag, and perhaps the method.
@@ -279,8 +281,10 @@ static bool apply_dither(Parse *parse, const OptionRow *row, bool on, const char
 
 static bool apply_method(Parse *parse, const OptionRow *row, bool on, const char *value) {
     (void)row, (void)on;
-    if (patch_method_parse(value, &parse->options->method))
+    if (patch_method_parse(value, &parse->options->method)) {
+        parse->options->bench.method_given = true;
         return true;
+    }
     size_t at = (size_t)snprintf(parse->why, sizeof parse->why, "the methods are");
     for (int i = 0; i < METHOD_COUNT && at < sizeof parse->why; i++)
         at += (size_t)snprintf(parse->why + at, sizeof parse->why - at, "%s %s", i ? "," : "",
@@ -295,7 +299,8 @@ static bool apply_region(Parse *parse, const OptionRow *row, bool on, const char
     int *r = parse->options->region, got[4];
     if (sscanf(value, "%d,%d,%d,%d%c", &got[0], &got[1], &got[2], &got[3], &rest) != 4 ||
         got[0] < 0 || got[1] < 0 || got[2] < 1 || got[3] < 1)
-        return complain(parse, "left,top,width,height in pixels, the first two counted from 0");
+        return option_complain(parse,
+                               "left,top,width,height in pixels, the first two counted from 0");
     memcpy(r, got, sizeof got);
     return true;
 }
@@ -306,7 +311,7 @@ static bool apply_pixel(Parse *parse, const OptionRow *row, bool on, const char 
     char rest;
     int x, y;
     if (sscanf(value, "%d,%d%c", &x, &y, &rest) != 2 || x < 0 || y < 0)
-        return complain(parse, "column,row, both counted from 0");
+        return option_complain(parse, "column,row, both counted from 0");
     parse->options->pixel[0] = x;
     parse->options->pixel[1] = y;
     return true;
@@ -325,7 +330,8 @@ static bool apply_aov(Parse *parse, const OptionRow *row, bool on, const char *v
                (strlen(names[kind]) != length || strncmp(names[kind], value, length) != 0))
             kind++;
         if (kind == AOV_COUNT)
-            return complain(parse, "the channels are depth,normal,uv,patch,steps,bound,object");
+            return option_complain(parse,
+                                   "the channels are depth,normal,uv,patch,steps,bound,object");
         parse->options->aovs |= 1u << kind;
         value += length + (value[length] == ',');
     }
@@ -341,30 +347,40 @@ static bool apply_tolerance(Parse *parse, const OptionRow *row, bool on, const c
     const char *text = pixels ? arena_printf(parse->arena, "%.*s", (int)length - 2, value) : value;
     double tolerance;
     if (!option_number(text, &tolerance) || tolerance < (pixels ? 1e-6 : 1e-15) || tolerance > 1.0)
-        return complain(parse, "a share of the patch's diameter, 1e-15 to 1, or of a pixel where "
+        return option_complain(parse,
+                               "a share of the patch's diameter, 1e-15 to 1, or of a pixel where "
                                "the patch is seen, 1e-6px to 1px");
+    if (pixels && parse->program == PROGRAM_QIBENCH)
+        return option_complain(parse,
+                               "without a camera there are no pixels: a share of the patch's "
+                               "diameter, 1e-15 to 1");
     o->pixels = pixels ? tolerance : 0.0;
+    o->bench.tolerance_given = true;
     if (!pixels)
         o->tolerance = tolerance;
     return true;
 }
 
-// Points of the curve of time against error; README has what they were measured to give.
+const Accuracy options_accuracies[ACCURACY_COUNT] = {
+    {"draft", 1e-9, 0.1}, {"pixel", 1e-9, 1e-6}, {"fine", 1e-9, 0.0}, {"exact", 1e-14, 0.0}};
+
 static bool apply_accuracy(Parse *parse, const OptionRow *row, bool on, const char *value) {
-    static const struct {
-        const char *name, *tolerance;
-    } points[] = {{"draft", "0.1px"}, {"pixel", "1e-6px"}, {"fine", "1e-9"}, {"exact", "1e-14"}};
-    for (size_t i = 0; i < sizeof points / sizeof *points; i++)
-        if (strcasecmp(value, points[i].name) == 0)
-            return apply_tolerance(parse, row, on, points[i].tolerance);
-    return complain(parse, "draft, pixel, fine or exact");
+    (void)row, (void)on;
+    for (int i = 0; i < ACCURACY_COUNT; i++)
+        if (strcasecmp(value, options_accuracies[i].name) == 0) {
+            parse->options->pixels = options_accuracies[i].pixels;
+            if (options_accuracies[i].pixels == 0.0)
+                parse->options->tolerance = options_accuracies[i].tolerance;
+            return true;
+        }
+    return option_complain(parse, "draft, pixel, fine or exact");
 }
 
 static bool apply_prepare(Parse *parse, const OptionRow *row, bool on, const char *value) {
     (void)row, (void)on;
     parse->options->prepare_given = true;
     return patch_prepare_parse(value, &parse->options->prepare) ||
-           complain(parse, "the ways are full, light, none");
+           option_complain(parse, "the ways are full, light, none");
 }
 
 // Takes effect at once: all that trace in this program use it.
@@ -374,11 +390,11 @@ static bool apply_isa(Parse *parse, const OptionRow *row, bool on, const char *v
     case PATCH_ISA_CHOSEN:
         return true;
     case PATCH_ISA_UNUSABLE:
-        return complain(parse, "this machine does not have it");
+        return option_complain(parse, "this machine does not have it");
     case PATCH_ISA_UNKNOWN:
         break;
     }
-    return complain(parse, "the instruction sets are scalar, avx2, avx512");
+    return option_complain(parse, "the instruction sets are scalar, avx2, avx512");
 }
 
 // ORDER limit
@@ -396,7 +412,7 @@ static bool apply_limit(Parse *parse, const OptionRow *row, bool on, const char 
             continue;
         double number;
         if (value[length] != '=' || !option_number(value + length + 1, &number) || number < 1)
-            return complain(parse, "a positive number must follow, as in tokens=1e9");
+            return option_complain(parse, "a positive number must follow, as in tokens=1e9");
         parse->options->limits[i] = number < 1e15 ? (uint64_t)number : (uint64_t)1e15;
         return true;
     }
@@ -413,7 +429,7 @@ static bool apply_limit(Parse *parse, const OptionRow *row, bool on, const char 
 #define FIELD(name) .offset = offsetof(RenderOptions, name)
 #define CLIP(least, most) .low = (least), .high = (most)
 #define HEADING(text)                                                                              \
-    { .kind = OPTION_HEADING, .programs = IN_ALL, .help = (text) }
+    { .kind = OPTION_HEADING, .programs = IN_EVERY, .help = (text) }
 #define DRAWS (IN_QIRENDER | IN_QICOMPARE)
 #define IGNORED(switch_letters, ini, what)                                                         \
     {                                                                                              \
@@ -516,25 +532,31 @@ const OptionRow option_rows[] = {
      CLIP(0.01, 100), .help = "the gamma in which colours are compared (2.5)"},
     {OPTION_INT, "Q", "Quality", NULL, "n", DRAWS, FIELD(quality), CLIP(0, 9),
      .help = "0 quick colours ... 4 shadows ... 9 everything (default)"},
-    {OPTION_SPECIAL, NULL, NULL, "method", "name", DRAWS, .apply = apply_method,
+    {OPTION_SPECIAL, NULL, NULL, "method", "name", DRAWS | IN_QIBENCH, .apply = apply_method,
      .help = "how patches are met: qi (default), qi-paper, clipping, newton, facets (POV-Ray's "
-             "triangles), tessellation (Embree's)"},
+             "triangles), tessellation (Embree's)",
+     .commands = FOR_TRACE | FOR_SPEED},
     {OPTION_INT, NULL, NULL, "finer", "n", DRAWS, FIELD(finer), CLIP(0, 8),
      .help = "facets: u_steps and v_steps n higher than the scene says, flatness a 4^n-th of it"},
-    {OPTION_SPECIAL, NULL, NULL, "tolerance", "x", DRAWS, .apply = apply_tolerance,
+    {OPTION_SPECIAL, NULL, NULL, "tolerance", "x", DRAWS | IN_QIBENCH, .apply = apply_tolerance,
      .help = "the largest error of a hit, as a share of its patch's diameter (1e-9), or of a pixel "
-             "there (0.1px)"},
+             "there (0.1px)",
+     .commands = FOR_TRACE | FOR_SPEED},
     {OPTION_SPECIAL, NULL, NULL, "accuracy", "name", DRAWS, .apply = apply_accuracy,
      .help = "a named tolerance: draft (0.1px), pixel (1e-6px), fine (1e-9), exact (1e-14)"},
+    {OPTION_FLAG, NULL, NULL, "explain", NULL, IN_QIRENDER, FIELD(explain),
+     .help = "after the picture, print what the tolerance cost and what it bought, and what the "
+             "next coarser and finer accuracy would change, measured on a sample of the rays"},
     {OPTION_SPECIAL, NULL, NULL, "aov", "list", IN_QIRENDER, .apply = apply_aov,
      .help = "more channels, to NAME.aov.exr (with +FE to the picture): depth,normal,uv,patch,"
              "steps,bound,object"},
     {OPTION_SPECIAL, NULL, NULL, "pixel", "x,y", IN_QIRENDER, .apply = apply_pixel,
      .help = "instead of a picture, print how this pixel comes about: rays, hits, nets, lights"},
-    {OPTION_SPECIAL, NULL, NULL, "prepare", "how", DRAWS, .apply = apply_prepare,
+    {OPTION_SPECIAL, NULL, NULL, "prepare", "how", DRAWS | IN_QIBENCH, .apply = apply_prepare,
      .help =
-         "sub-patches for qi: full, light (few), none (the paper's); full or light by the work"},
-    {OPTION_SPECIAL, NULL, NULL, "isa", "name", DRAWS, .apply = apply_isa,
+         "sub-patches for qi: full, light (few), none (the paper's); full or light by the work",
+     .commands = FOR_TRACE | FOR_SPEED},
+    {OPTION_SPECIAL, NULL, NULL, "isa", "name", DRAWS | IN_QIBENCH, .apply = apply_isa,
      .help = "instruction set for qi: scalar, avx2, avx512 (the best there is; same pictures)"},
 
     HEADING("Comparing"),
@@ -550,6 +572,36 @@ const OptionRow option_rows[] = {
      .help = "compare only this part of the pictures"},
     {OPTION_INT, NULL, NULL, "places", "n", IN_QICOMPARE, FIELD(places), CLIP(0, 100),
      .help = "look into so many of the worst places (10): enlarged, told, and why they differ"},
+
+    HEADING("Measuring"),
+    {OPTION_SPECIAL, NULL, NULL, "threads", "n", IN_QIBENCH, FIELD(threads), CLIP(0, 512),
+     .apply = bench_apply_whole, .commands = FOR_TRACE,
+     .help = "trace: threads (0: as many as there are cores)"},
+    {OPTION_SPECIAL, NULL, NULL, "rounds", "n", IN_QIBENCH, .apply = bench_apply_rounds,
+     .commands = FOR_SPEED | FOR_SWEEP,
+     .help = "speed, sweep: the median of n rounds, odd (5; sweep: 3)"},
+    {OPTION_SPECIAL, NULL, NULL, "share", "x", IN_QIBENCH, FIELD(bench.share), CLIP(1e-4, 1),
+     .apply = bench_apply_within, .commands = FOR_SPEED,
+     .help = "speed methods: this share of the rays (1)"},
+    {OPTION_SPECIAL, NULL, NULL, "view", "name", IN_QIBENCH, .apply = bench_apply_view,
+     .commands = FOR_SPEED, .help = "speed methods: full, zoom or scattered alone"},
+    {OPTION_SPECIAL, NULL, NULL, "patches", "n", IN_QIBENCH, FIELD(bench.patches), CLIP(32, 1e8),
+     .apply = bench_apply_whole, .commands = FOR_SPEED,
+     .help = "speed lattices: up to n patches (1000000)"},
+    {OPTION_SPECIAL, NULL, NULL, "size", "WxH", IN_QIBENCH, .apply = bench_apply_size,
+     .commands = FOR_SWEEP, .help = "sweep: of the pictures (320x240)"},
+    {OPTION_SPECIAL, NULL, NULL, "include", "folder", IN_QIBENCH, .apply = apply_library,
+     .commands = FOR_SWEEP, .help = "sweep: where includes are looked for; may be repeated"},
+    {OPTION_TEXT, NULL, NULL, "html", "folder", IN_QIBENCH, FIELD(bench.html),
+     .commands = FOR_SWEEP, .help = "sweep: also write index.html, sweep.csv and sweep.json there"},
+    {OPTION_SPECIAL, NULL, NULL, "patience", "s", IN_QIBENCH, FIELD(bench.patience), CLIP(1, 1e6),
+     .apply = bench_apply_within, .commands = FOR_SWEEP,
+     .help = "sweep: give a point up after so many seconds (60)"},
+    {OPTION_SPECIAL, NULL, NULL, "povray", "on|off", IN_QIBENCH, .apply = bench_apply_povray,
+     .commands = FOR_SWEEP, .help = "sweep: run POV-Ray too (on)"},
+    {OPTION_FLAG, NULL, NULL, "study", NULL, IN_QIBENCH, FIELD(bench.study), .commands = FOR_SWEEP,
+     .help = "sweep: print how wrong POV-Ray's triangles are, where they crack, and what equal "
+             "errors cost, instead of the whole table"},
 
     HEADING("The run"),
     {OPTION_INT, "WT", "Work_Threads", NULL, "n", IN_ALL, FIELD(threads), CLIP(0, 512),
@@ -576,12 +628,12 @@ const OptionRow option_rows[] = {
     {OPTION_SPECIAL, NULL, NULL, "limit", "name=n", IN_ALL, .apply = apply_limit,
      .help = "the most that reading a scene may take: calls, elements (of arrays), includes, "
              "megabytes, nesting, objects, seconds, string (bytes), tokens"},
-    {OPTION_FLAG, NULL, NULL, "help", NULL, IN_ALL, FIELD(help), .help = "this text"},
-    {OPTION_FLAG, NULL, NULL, "version", NULL, IN_ALL, FIELD(show_version),
+    {OPTION_FLAG, NULL, NULL, "help", NULL, IN_EVERY, FIELD(help), .help = "this text"},
+    {OPTION_FLAG, NULL, NULL, "version", NULL, IN_EVERY, FIELD(show_version),
      .help = "the version of this program"},
-    {OPTION_FLAG, NULL, NULL, "man", NULL, IN_ALL, FIELD(manual),
+    {OPTION_FLAG, NULL, NULL, "man", NULL, IN_EVERY, FIELD(manual),
      .help = "the manual page, for man -l -"},
-    {OPTION_FLAG, NULL, NULL, "completion", NULL, IN_ALL, FIELD(completion),
+    {OPTION_FLAG, NULL, NULL, "completion", NULL, IN_EVERY, FIELD(completion),
      .help = "a script that makes bash complete this program's words"},
 
     HEADING("Messages"),

@@ -21,7 +21,13 @@ enum {
     IN_QIRENDER = 1 << PROGRAM_QIRENDER,
     IN_POV2QI = 1 << PROGRAM_POV2QI,
     IN_QICOMPARE = 1 << PROGRAM_QICOMPARE,
-    IN_ALL = IN_QIRENDER | IN_POV2QI | IN_QICOMPARE,
+    IN_QIBENCH = 1 << PROGRAM_QIBENCH,
+    IN_ALL = IN_QIRENDER | IN_POV2QI | IN_QICOMPARE, // all that take POV-Ray's words
+    IN_EVERY = IN_ALL | IN_QIBENCH,
+    // Commands of qibench.
+    FOR_TRACE = 1 << BENCH_TRACE,
+    FOR_SPEED = 1 << BENCH_SPEED,
+    FOR_SWEEP = 1 << BENCH_SWEEP,
 };
 
 typedef struct Parse Parse;
@@ -39,7 +45,8 @@ struct OptionRow {
     // OPTION_SPECIAL: value is never NULL; on is false after '-'. Fills parse->why and returns
     // false when the value cannot be meant.
     bool (*apply)(Parse *parse, const OptionRow *row, bool on, const char *value);
-    const char *help; // NULL: not shown
+    const char *help;  // NULL: not shown
+    unsigned commands; // of qibench that take it; 0: all
 };
 
 extern const OptionRow option_rows[];
@@ -70,6 +77,8 @@ const OptionRow *option_keyword(const Parse *parse, const char *name, size_t len
 
 // On the command line prints the message and returns false; in an INI file dies there.
 bool option_refuse(const Parse *parse, const char *word, const char *why);
+// Says what is wrong with a value (parse->why); false.
+bool option_complain(Parse *parse, const char *what);
 // For options_report.
 void option_remark(Parse *parse, bool warning, const char *format, ...)
     __attribute__((format(printf, 3, 4)));

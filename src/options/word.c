@@ -113,6 +113,9 @@ static size_t distance(const char *a, size_t a_length, const char *b) {
 // An INI file may be meant for another program: all of POV-Ray's options are known in it. So they
 // are to pov2qi, which takes the line that renders a scene.
 static bool belongs(const Parse *parse, const OptionRow *row) {
+    if (parse->program == PROGRAM_QIBENCH && row->commands &&
+        !(row->commands & (1u << parse->options->bench.command)))
+        return false;
     if ((row->programs & (1u << parse->program)) != 0)
         return true;
     bool povray = row->letters || row->keyword;

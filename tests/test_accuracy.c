@@ -10,6 +10,8 @@
 #include <stdint.h>
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 
 #include <cmocka.h>
 
@@ -52,6 +54,45 @@ static void pixel_is_exact_to_the_eye(void **state) {
     }
 }
 
+static double number_after(const char *text, const char *words) {
+    const char *at = strstr(text, words);
+    if (!at)
+        fail_msg("no '%s' in\n%s", words, text);
+    return strtod(at + strlen(words), NULL);
+}
+
+// What --explain measures keeps what the tolerances promise: bounds are below them, hits move by
+// no more than both allow, and what is not there is said.
+static void explained(void **state) {
+    (void)state;
+    const char *log;
+    const char *run = "build/qirender +Iscenes/teapot-matte/teapot-matte.pov +Lscenes/teapot +W160 "
+                      "+H120 -V --accuracy %s --explain '+O%s/explained.png'";
+    char command[4600];
+    snprintf(command, sizeof command, run, "pixel", scratch_folder());
+    assert_int_equal(run_command(&log, "%s", command), 0);
+    assert_true(number_after(log, "(pixel), from a sample of ") == 160 * 120);
+    assert_true(number_after(log, "within its bound: ") <= 1e-6);
+    assert_true(number_after(log, "a camera ray ") > 0.0);
+    assert_non_null(strstr(log, "The next coarser, 0.1px (draft)"));
+    assert_non_null(strstr(log, "The next finer, 1e-09 of a patch's diameter (fine)"));
+    const char *finer = strstr(log, "The next finer");
+    assert_true(number_after(finer, "by up to ") <= 1e-5);
+    assert_true(number_after(finer, "pixels; ") <= 1.0);
+
+    snprintf(command, sizeof command, run, "exact", scratch_folder());
+    assert_int_equal(run_command(&log, "%s", command), 0);
+    assert_null(strstr(log, "The next finer"));
+    assert_non_null(strstr(log, "The next coarser, 1e-09"));
+
+    assert_int_equal(run_command(&log,
+                                 "echo 'sphere { 0, 1 } background { rgb 1 }' >'%s/a.pov' && "
+                                 "build/qirender '%s/a.pov' +W8 +H8 -V --explain",
+                                 scratch_folder(), scratch_folder()),
+                     0);
+    assert_non_null(strstr(log, "no patches"));
+}
+
 // The pixel of a perspective camera grows with the distance; that of an orthographic one does not.
 static void footprints(void **state) {
     (void)state;
@@ -85,6 +126,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(pixel_is_exact_to_the_eye),
         cmocka_unit_test(footprints),
+        cmocka_unit_test(explained),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

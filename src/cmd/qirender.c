@@ -8,6 +8,7 @@
 #include "base/version.h"
 #include "converter/convert.h"
 #include "options/animation.h"
+#include "render/explain.h"
 #include "render/render.h"
 #include "render/resume.h"
 
@@ -200,6 +201,9 @@ static void render_picture(RenderOptions *o, bool frame) {
         write_output(o, output, image, &write, &stats);
     if (o->state)
         resume_remove(o->state);
+    if (o->explain) // a picture on standard output stays alone there
+        explain_print(scene, o, &stats,
+                      o->output_to_file && strcmp(output, "-") == 0 ? stderr : stdout);
     if (o->verbose) {
         print_statistics(o, &stats, read_seconds);
         if (to_file)

@@ -8,7 +8,6 @@
 #include "base/progress.h"
 #include "render/aov.h"
 #include "render/film.h"
-#include "render/footprint.h"
 #include "render/resume.h"
 #include "render/story.h"
 #include "render/trace.h"
@@ -16,6 +15,7 @@
 #include <limits.h>
 #include <math.h>
 #include <omp.h>
+#include <time.h>
 #include <unistd.h>
 
 // A pixel's memory until its file is written: the colour (20 bytes), the developed values (16), the
@@ -252,8 +252,7 @@ static Image *develop(const Film *film, const Color *picture, const RenderOption
     return image;
 }
 
-// What footprint holds must stay until the world is made.
-static PatchSetOptions patch_options(const Scene *scene, const RenderOptions *o,
+PatchSetOptions render_patch_options(const Scene *scene, const RenderOptions *o,
                                      Footprint *footprint) {
     PatchSetOptions patches = patchset_options_default();
     if (o->pixels > 0.0) {
@@ -284,6 +283,12 @@ static bool asks_uv(const Scene *scene) {
     return any;
 }
 
+static double process_seconds(void) {
+    struct timespec now;
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
 Image *render_scene(const Scene *scene, const RenderOptions *o, Arena *arena,
                     ImageWriteOptions *write, RenderStats *stats) {
     *stats = (RenderStats){.threads = o->threads > 0 ? o->threads : omp_get_num_procs()};
@@ -293,7 +298,7 @@ Image *render_scene(const Scene *scene, const RenderOptions *o, Arena *arena,
     // Prepare the world.
     double start = progress_seconds();
     Footprint footprint;
-    PatchSetOptions patches = patch_options(scene, o, &footprint);
+    PatchSetOptions patches = render_patch_options(scene, o, &footprint);
     World *world = world_create(scene, &patches);
     if (!o->aovs && !asks_uv(scene))
         world_without_uv(world);
@@ -323,7 +328,9 @@ Image *render_scene(const Scene *scene, const RenderOptions *o, Arena *arena,
         job.progress =
             progress_begin("rendering", stats->pixels, o->verbose && o->console[CONSOLE_RENDER]);
         begin_resume(&job);
+        double work = process_seconds();
         render_tiles(&job, stats);
+        stats->work_seconds = process_seconds() - work;
         progress_end(&job.progress);
         end_resume(&job, stats);
     }
@@ -356,7 +363,7 @@ void render_pixel(const Scene *scene, const RenderOptions *o, FILE *out) {
         die("pixel %d,%d lies outside the picture: it has %d x %d, counted from 0", x, y, o->width,
             o->height);
     Footprint footprint;
-    PatchSetOptions patches = patch_options(scene, o, &footprint);
+    PatchSetOptions patches = render_patch_options(scene, o, &footprint);
     World *world = world_create(scene, &patches);
     const TraceOptions trace = {.quality = o->quality, .alpha = o->alpha, .patches = patches};
     Shading *shading = shading_create(scene, world, &trace);

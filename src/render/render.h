@@ -7,6 +7,7 @@
 #include "image/image.h"
 #include "model/scene.h"
 #include "options/options.h"
+#include "render/footprint.h"
 #include "render/sample.h"
 #include "render/world.h"
 
@@ -19,6 +20,7 @@ typedef struct {
     uint64_t supersampled;    // pixels that got more than their first samples
     uint64_t patches, memory; // bytes of the prepared world
     double prepare_seconds, trace_seconds;
+    double work_seconds; // of processor time, of all threads, while tracing
     int threads;
     ImageLayers *layers; // options->aovs (aov.h), in render_scene's arena; NULL: none asked for
     uint64_t taken_up;   // pixels that an earlier run had finished
@@ -33,6 +35,10 @@ void render_check(const RenderOptions *options);
 
 // The part of the picture to render; empty when it ends before it starts. After render_check.
 PixelRect render_area(const RenderOptions *options);
+
+// How the options ask for patches. What footprint holds must stay until the world is made.
+PatchSetOptions render_patch_options(const Scene *scene, const RenderOptions *options,
+                                     Footprint *footprint);
 
 // Set by a signal handler: render_scene ends when the tiles at work are finished.
 extern volatile sig_atomic_t render_interrupted;

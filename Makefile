@@ -4,7 +4,7 @@
 #   make test    install what is missing, build, run all tests (AddressSanitizer, UBSan)
 #   make test-examples  read every scene that POV-Ray's distribution has, as POV-Ray does
 #   make install  to PREFIX (/usr/local), below DESTDIR
-#   make report   what accuracy costs: curves, tables and maps as a page (minutes)
+#   make report   what accuracy costs: curves, tables and maps as a page (minutes); make study, accuracy
 #   make gallery the pictures of README; make bench its table of speed; make deps lint clean
 MAKEFLAGS += --no-builtin-rules
 .DELETE_ON_ERROR:
@@ -13,6 +13,7 @@ MAKEFLAGS += --no-builtin-rules
 PACKAGES = gcc g++ pkg-config povray povray-includes povray-examples libopenimageio-dev \
            openimageio-tools libpng-dev libfreetype-dev libcmocka-dev libjansson-dev
 REPORT_PACKAGES = gnuplot-nox
+BROWSER_PACKAGES = chromium
 LINT_PACKAGES = clang-format clang-tidy cppcheck
 
 CC  ?= gcc
@@ -143,7 +144,7 @@ deps:
 	@tests/deps.sh $(PACKAGES)
 
 test: deps
-	@tests/deps.sh $(REPORT_PACKAGES)
+	@tests/deps.sh $(REPORT_PACKAGES) $(BROWSER_PACKAGES)
 	@$(MAKE) --no-print-directory -j$$(nproc) all build/test/$(IMAGE_LIB) $(PROGRAMS:%=build/test/%) $(TESTS:%=build/test/%)
 	@tests/run.sh $(TESTS)
 
@@ -244,12 +245,14 @@ test-mutations: deps
 # PREFIX is where it will run, DESTDIR where it is put for now (packages).
 PREFIX ?= /usr/local
 INTO = $(DESTDIR)$(PREFIX)
-MANUALS = $(filter-out qibench,$(PROGRAMS))
+VERSION = $(shell sed -n 's/.*QIPOV_VERSION "\(.*\)"/\1/p' src/base/version.h)
 install: all
-	install -d $(INTO)/bin $(INTO)/lib $(INTO)/share/man/man1 $(INTO)/share/bash-completion/completions
+	install -d $(INTO)/bin $(INTO)/lib/pkgconfig $(INTO)/include $(INTO)/share/man/man1 $(INTO)/share/bash-completion/completions
 	install -m 755 $(PROGRAMS:%=build/%) $(INTO)/bin
-	install -m 644 build/$(IMAGE_LIB) $(INTO)/lib
-	for p in $(MANUALS); do build/$$p --man >$(INTO)/share/man/man1/$$p.1; \
+	install -m 644 build/$(IMAGE_LIB) build/libqipatch.a $(INTO)/lib
+	install -m 644 src/patch/qipatch.h $(INTO)/include
+	sed 's|@PREFIX@|$(PREFIX)|; s|@VERSION@|$(VERSION)|' src/patch/qipatch.pc.in >$(INTO)/lib/pkgconfig/qipatch.pc
+	for p in $(PROGRAMS); do build/$$p --man >$(INTO)/share/man/man1/$$p.1; \
 	    build/$$p --completion >$(INTO)/share/bash-completion/completions/$$p; done
 
 gallery: deps
@@ -261,20 +264,31 @@ bench: deps
 	@$(MAKE) --no-print-directory -j$$(nproc) all
 	@tests/bench.sh
 
-# The trade of speed against accuracy: a page in build/report. The scenes that are there are measured.
+# The trade of speed against accuracy: a page in build/report, and whether errors fall with tolerances.
+# The scenes that are there are measured. study: README's section on how wrong POV-Ray is. accuracy:
+# is `pixel` `exact` to the eye, on all scenes in reach?
 REPORT_SCENES = /usr/share/doc/povray/examples/advanced/teapot/teapot.pov scenes/shells/shells.pov \
     scenes/dunes/dunes.pov $(wildcard ../shared/corpus/postit/postit.pov ../shared/corpus/fmunoz/fruit_only.pov)
+REPORT_ROUNDS ?= 3
 report: deps
 	@tests/deps.sh $(REPORT_PACKAGES)
 	@$(MAKE) --no-print-directory -j$$(nproc) all
 	@mkdir -p build
-	@build/qibench sweep --html build/report $(REPORT_SCENES)
+	@build/qibench sweep --rounds $(REPORT_ROUNDS) --html build/report $(REPORT_SCENES)
+	@tests/sweep_check.sh build/report/sweep.csv && echo build/report/index.html
+study: deps
+	@$(MAKE) --no-print-directory -j$$(nproc) all
+	@tests/study.sh
+accuracy: deps
+	@$(MAKE) --no-print-directory -j$$(nproc) all
+	@tests/accuracy.sh
 
 # Rays at all extremes, judged by an exact oracle; STRESS="--rays 1e6 --case cusp" for less.
 stress: deps
 	@$(MAKE) --no-print-directory -j$$(nproc) build/stress
 	@tests/stress.sh $(STRESS)
 
+.PHONY: accuracy
 .PHONY: all
 .PHONY: bench
 .PHONY: bench-parse
@@ -296,6 +310,7 @@ stress: deps
 .PHONY: solids
 .PHONY: solids-pictures
 .PHONY: stress
+.PHONY: study
 .PHONY: test
 .PHONY: test-examples
 .PHONY: test-mutations

@@ -33,7 +33,7 @@ static void programs_run(void **state) {
         fail_msg("%s", log);
 }
 
-static const char *const programs[] = {"pov2qi", "qirender", "qicompare"};
+static const char *const programs[] = {"pov2qi", "qirender", "qicompare", "qibench"};
 
 static void manual_pages(void **state) {
     (void)state;
@@ -43,7 +43,8 @@ static void manual_pages(void **state) {
         snprintf(path, sizeof path, "%s/usr/share/man/man1/%s.1", scratch_folder(), programs[i]);
         assert_int_equal(run_command(&log, "cat '%s'", path), 0);
         assert_non_null(strstr(log, ".SH NAME"));
-        assert_non_null(strstr(log, "\\fB+W\\fR"));
+        assert_non_null(strstr(log, "\\fB\\-\\-completion\\fR"));
+        assert_non_null(strstr(log, ".SH EXIT STATUS"));
         if (run_command(NULL, "command -v groff") != 0) {
             print_message("skipped: groff is not installed\n");
             continue;
@@ -69,11 +70,32 @@ static void completions(void **state) {
     }
 }
 
+// README's example, compiled against what was installed, by the flags that pkg-config gives; with
+// DESTDIR as the root, as a package's files are before they are in place.
+static void library_is_found(void **state) {
+    (void)state;
+    const char *log;
+    int status = run_command(
+        &log,
+        "awk '/^<!-- example: /{found=1} found && /^```$/{exit} inside{print} found && "
+        "/^```c$/{inside=1}' README.md >'%s/example.c' && cd '%s' && "
+        "export PKG_CONFIG_PATH=\"$PWD/usr/lib/pkgconfig\" PKG_CONFIG_SYSROOT_DIR=\"$PWD\" "
+        "PKG_CONFIG_ALLOW_SYSTEM_CFLAGS=1 PKG_CONFIG_ALLOW_SYSTEM_LIBS=1 && "
+        "cc -std=c11 -Wall -Wextra -Werror $(pkg-config --cflags qipatch) -o example example.c "
+        "$(pkg-config --libs qipatch) && ./example && pkg-config --modversion qipatch",
+        scratch_folder(), scratch_folder());
+    if (status != 0)
+        fail_msg("%s", log);
+    // Twelve lines of 24 characters, then the version.
+    assert_true(strlen(log) > 12 * 25 && log[6 * 25 + 12] == '@' && log[12 * 25] >= '0');
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(programs_run),
         cmocka_unit_test(manual_pages),
         cmocka_unit_test(completions),
+        cmocka_unit_test(library_is_found),
     };
     return cmocka_run_group_tests(tests, install_it, NULL);
 }

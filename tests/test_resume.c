@@ -157,7 +157,8 @@ static void interrupted_renders_go_on(void **state) {
     snprintf(render, sizeof render, RENDER, scratch_folder(), "whole");
     assert_int_equal(run_command(NULL, "%s", render), 0);
     stop_and_go_on("third", 0.3, "INT", 2);
-    stop_and_go_on("late", 0.6, "TERM", 2);
+    stop_and_go_on("late", 0.6, "INT", 2);
+    stop_and_go_on("ended", 0.45, "TERM", 2);
     stop_and_go_on("killed", 0.5, "KILL", 128 + 9);
 }
 

@@ -323,6 +323,7 @@ static void summarize(const MeasuredList *list, const SweepOptions *o, Sweep *sw
 }
 
 Sweep *sweep_run(const SweepOptions *o, Arena *arena) {
+    run_catch_signals();
     Scene *scene = read_scene(o, arena);
     Sweep *sweep = ARENA_NEW(arena, Sweep);
     sweep->scene = arena_strdup(arena, o->scene);

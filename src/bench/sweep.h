@@ -77,7 +77,8 @@ typedef struct {
     Image *picture; // the truth
 } Sweep;
 
-// Dies when the scene cannot be read. NULL when it was interrupted (report/run.h). Memory in arena.
+// Takes the signals (report/run.h). Dies when the scene cannot be read. NULL when it was
+// interrupted. Memory in arena.
 Sweep *sweep_run(const SweepOptions *options, Arena *arena);
 
 // "qi 1e-09", "qi prepared light 1e-09", "povray u_steps 4"

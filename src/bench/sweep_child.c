@@ -144,6 +144,7 @@ static void measure(const Scene *scene, const SweepOptions *o, const SweepPoint 
     render.method = point->method;
     render.tolerance = point->tolerance;
     render.prepare = point->prepare;
+    render.prepare_given = true;
     times = 0;
     start = process_seconds();
     do {

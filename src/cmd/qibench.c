@@ -166,7 +166,6 @@ static int sweep(const RenderOptions *o, int argc, char **argv) {
         command = arena_printf(arena, "%s %s", command, argv[i]);
     if (b->html)
         make_folder(b->html); // before the work
-    run_catch_signals();
     for (size_t i = 0; i < b->word_count; i++) {
         options.scene = b->words[i];
         sweeps[i] = sweep_run(&options, arena);

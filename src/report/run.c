@@ -7,6 +7,7 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <stdbool.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <string.h>
@@ -62,7 +63,10 @@ static void on_signal(int number) {
         kill(running, SIGTERM);
 }
 
+static bool catching;
+
 void run_catch_signals(void) {
+    catching = true;
     signal(SIGINT, on_signal);
     signal(SIGTERM, on_signal);
 }
@@ -77,6 +81,8 @@ _Noreturn static void become(const Command *command, const char *log) {
 
 Run run_command_line(Command *command, const char *name, const char *log, Arena *arena) {
     command->words[command->count] = NULL;
+    if (catching) // a file that was written in between (base/file.h) has taken the signals
+        run_catch_signals();
     Run run = {.command = run_text(arena, command)};
     double start = progress_seconds();
     fflush(NULL);

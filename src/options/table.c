@@ -553,8 +553,7 @@ const OptionRow option_rows[] = {
     {OPTION_SPECIAL, NULL, NULL, "pixel", "x,y", IN_QIRENDER, .apply = apply_pixel,
      .help = "instead of a picture, print how this pixel comes about: rays, hits, nets, lights"},
     {OPTION_SPECIAL, NULL, NULL, "prepare", "how", DRAWS | IN_QIBENCH, .apply = apply_prepare,
-     .help =
-         "sub-patches for qi: full, light (few), none (the paper's); full or light by the work",
+     .help = "sub-patches for qi: full, light (few), none (the paper's); full or light by the work",
      .commands = FOR_TRACE | FOR_SPEED},
     {OPTION_SPECIAL, NULL, NULL, "isa", "name", DRAWS | IN_QIBENCH, .apply = apply_isa,
      .help = "instruction set for qi: scalar, avx2, avx512 (the best there is; same pictures)"},

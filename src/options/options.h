@@ -152,10 +152,10 @@ typedef struct {
     bool explain;         // --explain
     unsigned aovs;        // --aov: bit 1 << AovKind each
     bool strict;
-    bool patch_solids; // closed unions of patches with an interior are solids
-    bool binary;                                 // pov2qi
-    bool check;                                  // pov2qi: read the scene, write nothing
-    bool requires, json;                         // pov2qi: list what the scene needs, write nothing
+    bool patch_solids;   // closed unions of patches with an interior are solids
+    bool binary;         // pov2qi
+    bool check;          // pov2qi: read the scene, write nothing
+    bool requires, json; // pov2qi: list what the scene needs, write nothing
     bool help, show_version, manual, completion; // what options_inform prints
     uint64_t limits[LIMIT_COUNT];                // --limit; 0: not given
     // qicompare only.

@@ -11,7 +11,7 @@ enum {
     QUICK_DEPTH = 110,
     QUICK_BUDGET = 600,
     EXACT_BUDGET = 4000,
-    NEAR_BUDGET = 2000,
+    NEAR_BUDGET = 8000,
 };
 #define MARGIN 0x1p-6
 
@@ -155,14 +155,20 @@ void ray_oracle(RayOracle *oracle, const PatchDef *def, const Ray *ray, double t
 
 typedef long double Real;
 
+// Coordinates of a strip, each times the weight, and the weight. CROSS: (P - org) x dir, AXIS: P -
+// org. Where the patch is much longer along one axis than along another, and the ray askew, only
+// these tell places along it from places across.
+enum { ACROSS, OTHER, DEPTH_T, CROSS, AXIS = CROSS + 3, PLACES = AXIS + 3, WEIGHT = PLACES, STRIP };
+
 typedef struct {
-    Real p[4][POINTS]; // across twice, t, each times the weight; the weight
+    Real p[STRIP][POINTS];
 } Strip;
 
 typedef struct {
-    int nu, nv, budget;
-    Real reach;  // lateral
-    Real t0, t1; // of one step of depth
+    int nu, nv;
+    Real reach;                     // lateral
+    Real t0, t1;                    // of one step of depth
+    Real low[PLACES], high[PLACES]; // what no point within reach at these depths can leave
 } Tube;
 
 static void halve_line(Real *low, Real *high, const Real *from, int n, int step) {
@@ -194,15 +200,15 @@ static Real most_of(const Real *p, int count) {
 static Real larger(Real a, Real b) { return a > b ? a : b; }
 
 static Real step_of(const Strip *s, int c, int a, int b) {
-    return fabsl(s->p[c][a] / s->p[3][a] - s->p[c][b] / s->p[3][b]);
+    return fabsl(s->p[c][a] / s->p[WEIGHT][a] - s->p[c][b] / s->p[WEIGHT][b]);
 }
 
 // Which direction is longer, depth counted as far as it exceeds its step?
 static bool longer_in_u(const Tube *tube, const Strip *s) {
     int nu = tube->nu, nv = tube->nv, count = (nu + 1) * (nv + 1);
     Real size[2] = {0, 0};
-    for (int c = 0; c < 3; c++) {
-        Real scale = c < 2 ? 1 : tube->reach / (tube->t1 - tube->t0);
+    for (int c = ACROSS; c <= DEPTH_T; c++) {
+        Real scale = c < DEPTH_T ? 1 : tube->reach / (tube->t1 - tube->t0);
         for (int k = 0; k < count; k++) {
             if (k > nv)
                 size[0] = larger(size[0], scale * nu * step_of(s, c, k, k - nv - 1));
@@ -213,40 +219,56 @@ static bool longer_in_u(const Tube *tube, const Strip *s) {
     return size[0] >= size[1];
 }
 
-// Is a part of the strip within reach of the ray, at a depth within half a step of the tube's?
-static bool enters(Tube *tube, const Strip *s, int depth) {
-    int nu = tube->nu, nv = tube->nv, count = (nu + 1) * (nv + 1);
-    Real low[3], high[3];
-    for (int c = 0; c < 3; c++) {
+typedef enum { PART_OFF, PART_WITHIN, PART_OPEN } Part;
+
+// Is the strip within reach of the ray, at a depth within half a step of the tube's?
+static Part judge_strip(const Tube *tube, const Strip *s) {
+    int count = (tube->nu + 1) * (tube->nv + 1);
+    Real low[PLACES], high[PLACES];
+    for (int c = 0; c < PLACES; c++) {
         Real p[POINTS] = {0};
         for (int k = 0; k < count; k++)
-            p[k] = s->p[c][k] / s->p[3][k];
+            p[k] = s->p[c][k] / s->p[WEIGHT][k];
         low[c] = least_of(p, count);
         high[c] = most_of(p, count);
-        Real end[2] = {c < 2 ? -tube->reach : tube->t0, c < 2 ? tube->reach : tube->t1};
-        if (low[c] > end[1] || high[c] < end[0])
-            return false;
+        if (low[c] > tube->high[c] || high[c] < tube->low[c])
+            return PART_OFF;
     }
-    if (depth == 160 || --tube->budget < 0)
-        return false;
     bool inside = hypotl(larger(-low[0], high[0]), larger(-low[1], high[1])) <= tube->reach;
     bool level = high[2] - low[2] <= 0.5L * (tube->t1 - tube->t0);
     if (inside && level)
-        return true;
-    if (level && high[0] - low[0] <= 0.125L * tube->reach &&
-        high[1] - low[1] <= 0.125L * tube->reach)
-        return false;
-    Strip half[2];
-    bool along_u = longer_in_u(tube, s);
-    for (int c = 0; c < 4; c++) {
-        Real *a = half[0].p[c], *b = half[1].p[c];
-        const Real *p = s->p[c];
-        for (int k = 0; along_u && k <= nv; k++)
-            halve_line(a + k, b + k, p + k, nu, nv + 1);
-        for (int k = 0; !along_u && k < count; k += nv + 1)
-            halve_line(a + k, b + k, p + k, nv, 1);
+        return PART_WITHIN;
+    bool small = high[0] - low[0] <= 0.125L * tube->reach;
+    return level && small && high[1] - low[1] <= 0.125L * tube->reach ? PART_OFF : PART_OPEN;
+}
+
+enum { NEAR_DEPTH = 160 };
+
+// Has strips[0] a part that is? Of each halved one both halves are looked at, one after the other;
+// there is room for NEAR_DEPTH + 2.
+static bool enters(const Tube *tube, Strip *strips) {
+    int nu = tube->nu, nv = tube->nv, count = (nu + 1) * (nv + 1), top = 1, budget = NEAR_BUDGET;
+    while (top > 0 && budget-- > 0) {
+        Strip *s = &strips[top - 1];
+        Part part = judge_strip(tube, s);
+        if (part == PART_WITHIN)
+            return true;
+        if (part == PART_OFF || top > NEAR_DEPTH) {
+            top--;
+            continue;
+        }
+        bool along_u = longer_in_u(tube, s);
+        for (int c = 0; c < STRIP; c++) {
+            // halve_line() has read a line before it writes it.
+            Real *p = s->p[c], *b = strips[top].p[c];
+            for (int k = 0; along_u && k <= nv; k++)
+                halve_line(p + k, b + k, p + k, nu, nv + 1);
+            for (int k = 0; !along_u && k < count; k += nv + 1)
+                halve_line(p + k, b + k, p + k, nv, 1);
+        }
+        top++;
     }
-    return enters(tube, &half[0], depth + 1) || enters(tube, &half[1], depth + 1);
+    return false;
 }
 
 // A frame across the ray, and along it.
@@ -276,16 +298,33 @@ static Real along(const Real a[3], const Real b[3]) {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-static void lay_along(const PatchDef *def, const Ray *ray, const Frame *f, Strip *s) {
+static void lay_along(const PatchDef *def, const Ray *ray, const Frame *f, Tube *tube, Strip *s) {
+    const Real d[3] = {ray->dir.x, ray->dir.y, ray->dir.z};
     for (uint32_t k = 0; k < (def->degree_u + 1) * (def->degree_v + 1); k++) {
-        Real q[3];
+        Real q[3], w = def->weights ? def->weights[k] : 1.0;
         for (int axis = 0; axis < 3; axis++)
             q[axis] = (Real)vec_get(def->points[k], axis) - vec_get(ray->org, axis);
-        Real w = def->weights ? def->weights[k] : 1.0;
-        s->p[0][k] = w * along(q, f->e1);
-        s->p[1][k] = w * along(q, f->e2);
-        s->p[2][k] = w * along(q, f->w) / f->length;
-        s->p[3][k] = w;
+        s->p[ACROSS][k] = w * along(q, f->e1);
+        s->p[OTHER][k] = w * along(q, f->e2);
+        s->p[DEPTH_T][k] = w * along(q, f->w) / f->length;
+        for (int axis = 0; axis < 3; axis++) {
+            int a = (axis + 1) % 3, b = (axis + 2) % 3;
+            s->p[CROSS + axis][k] = w * (q[a] * d[b] - q[b] * d[a]);
+            s->p[AXIS + axis][k] = w * q[axis];
+        }
+        s->p[WEIGHT][k] = w;
+    }
+    tube->low[ACROSS] = tube->low[OTHER] = -tube->reach;
+    tube->high[ACROSS] = tube->high[OTHER] = tube->reach;
+    tube->low[DEPTH_T] = tube->t0;
+    tube->high[DEPTH_T] = tube->t1;
+    for (int axis = 0; axis < 3; axis++) {
+        Real most = tube->reach * (fabsl(d[(axis + 1) % 3]) + fabsl(d[(axis + 2) % 3]));
+        tube->low[CROSS + axis] = -most;
+        tube->high[CROSS + axis] = most;
+        Real a = tube->t0 * d[axis], b = tube->t1 * d[axis];
+        tube->low[AXIS + axis] = (a < b ? a : b) - tube->reach;
+        tube->high[AXIS + axis] = (a < b ? b : a) + tube->reach;
     }
 }
 
@@ -295,21 +334,26 @@ bool ray_oracle_near(const PatchDef *defs, int count, const Ray *ray, double t0,
     if (!(t0 < t1))
         return true;
     Frame f = frame_of(ray);
+    // 7 MB at the highest degrees: too much for the stack of a thread.
+    Strip *strips = malloc((NEAR_DEPTH + 2) * sizeof *strips);
+    bool all = strips != NULL;
     Real step = ((Real)t1 - (Real)t0) / STEPS, pad = reach / f.length;
-    for (int n = 0; n < STEPS; n++) {
+    for (int n = 0; all && n < STEPS; n++) {
         int at = 7 * (n + 1) % STEPS; // not in order: where it fails, it fails far from the ends
         bool found = false;
         for (int k = 0; k < count && !found; k++) {
-            Strip s;
-            Tube tube = {(int)defs[k].degree_u, (int)defs[k].degree_v,     NEAR_BUDGET, reach,
-                         t0 + at * step - pad,  t0 + (at + 1) * step + pad};
-            lay_along(&defs[k], ray, &f, &s);
-            found = enters(&tube, &s, 0);
+            Tube tube = {.nu = (int)defs[k].degree_u,
+                         .nv = (int)defs[k].degree_v,
+                         .reach = reach,
+                         .t0 = t0 + at * step - pad,
+                         .t1 = t0 + (at + 1) * step + pad};
+            lay_along(&defs[k], ray, &f, &tube, &strips[0]);
+            found = enters(&tube, strips);
         }
-        if (!found)
-            return false;
+        all = found;
     }
-    return true;
+    free(strips);
+    return all;
 }
 
 // ---- Points
@@ -387,4 +431,19 @@ double ray_oracle_residual(const PatchDef *def, const Ray *ray, double t, double
         square += off * off;
     }
     return (double)sqrtl(square);
+}
+
+bool ray_oracle_way(const PatchDef *def, const Ray *ray, const double from[2], const double to[2],
+                    double reach) {
+    enum { STEPS = 32 };
+    Frame f = frame_of(ray);
+    for (int n = 0; n <= STEPS; n++) {
+        Real s[3][3], share = (Real)n / STEPS;
+        jet_less(def, ray->org, from[0] + share * ((Real)to[0] - from[0]),
+                 from[1] + share * ((Real)to[1] - from[1]), false, s);
+        const Real q[3] = {s[0][0], s[1][0], s[2][0]};
+        if (!(hypotl(along(q, f.e1), along(q, f.e2)) <= reach))
+            return false;
+    }
+    return true;
 }

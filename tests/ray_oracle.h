@@ -51,6 +51,11 @@ void ray_oracle(RayOracle *oracle, const PatchDef *def, const Ray *ray, double t
 bool ray_oracle_near(const PatchDef *defs, int count, const Ray *ray, double t0, double t1,
                      double reach);
 
+// The same, shown by a way on one patch from (u0,v0) to (u1,v1): does it stay within `reach` of the
+// ray? Answered for 32 steps. False: no such way is known.
+bool ray_oracle_way(const PatchDef *def, const Ray *ray, const double from[2], const double to[2],
+                    double reach);
+
 // |org + t dir - S(u,v)|, rounded once.
 double ray_oracle_residual(const PatchDef *def, const Ray *ray, double t, double u, double v);
 // S and its derivatives.

@@ -326,6 +326,12 @@ const StressCase stress_cases[] = {
     // Sizes
     CASE("aspect_1e5", "1 : 1e5", 1, 500, aspect, surface, 1e5),
     CASE("aspect_1e10", "1 : 1e10", 1, 500, aspect, surface, 1e10),
+    CASE("ribbon_1e5", "wild, singular, turned, 1 : 1e5", 1, 500, ribbon, surface, 1e5),
+    CASE("ribbon_1e10", "1 : 1e10", 1, 500, ribbon, surface, 1e10),
+    CASE("ribbon_1e15", "1 : 1e15", 0.5, 500, ribbon, surface, 1e15),
+    CASE("ribbon_params", "1 : 1e10, at u, v of halves, thirds, ...", 0.5, 500, ribbon, parameters,
+         1e10),
+    CASE("ribbon_grazing", "1 : 1e10, tangent to the last bit", 0.2, 500, ribbon10, grazing, 0),
     CASE("scale_1e-9", "teapot of size 1e-9", 1, 20000, teapot, hull, 1e-9),
     CASE("scale_1e-6", "1e-6", 1, 20000, teapot, hull, 1e-6),
     CASE("scale_1e-4", "1e-4", 1, 20000, teapot, hull, 1e-4),

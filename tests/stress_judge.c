@@ -137,9 +137,15 @@ static double slack_of(const RayOracleRoot *c, double bound, const Ray *ray) {
            8.0 * DBL_EPSILON * fabs(c->t) + 4.0 * 0x1p-1074;
 }
 
-static bool near_between(const StressTruth *truth, double a, double b, double bound) {
-    return ray_oracle_near(truth->scene->defs, truth->scene->count, &truth->ray->ray, fmin(a, b),
-                           fmax(a, b), 4.0 * bound);
+// Between the hit and the crossing k.
+static bool near_between(const StressTruth *truth, const PatchHit *hit, int k, double bound) {
+    const RayOracleRoot *c = &truth->oracle.root[k];
+    const double from[2] = {hit->u, hit->v}, to[2] = {c->u, c->v};
+    if ((int)hit->id == truth->patch[k] &&
+        ray_oracle_way(&truth->scene->defs[hit->id], &truth->ray->ray, from, to, 4.0 * bound))
+        return true;
+    return ray_oracle_near(truth->scene->defs, truth->scene->count, &truth->ray->ray,
+                           fmin(c->t, hit->t), fmax(c->t, hit->t), 4.0 * bound);
 }
 
 // Does the range surely hold it?
@@ -167,7 +173,7 @@ static bool behind(const Trial *trial, const PatchHit *hit, int k) {
     double bound =
         fmax(bound_at(trial, hit, (int)hit->id), bound_at(trial, hit, trial->truth->patch[k]));
     return hit->t > c->t + slack_of(c, bound, &trial->truth->ray->ray) &&
-           !near_between(trial->truth, c->t, hit->t, bound);
+           !near_between(trial->truth, hit, k, bound);
 }
 
 static StressVerdict judge_nearest(const Trial *trial) {
@@ -210,7 +216,7 @@ static bool accounts(const Trial *trial, const PatchHit *hit, int k, bool far) {
     if (!far)
         return fabs(hit->t - c->t) <= slack_of(c, bound, &truth->ray->ray);
     // Crossings that the tolerance can't tell apart may be one.
-    return near_between(truth, c->t, hit->t, bound_at(trial, NULL, truth->patch[k]));
+    return near_between(truth, hit, k, bound_at(trial, NULL, truth->patch[k]));
 }
 
 static StressVerdict judge_all(const Trial *trial) {

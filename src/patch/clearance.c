@@ -21,12 +21,16 @@
 static double largest(Vec3 a) { return fmax(fabs(a.x), fmax(fabs(a.y), fabs(a.z))); }
 
 // Of the surface along a unit direction d in its tangent plane; 0 where the tangents span no plane.
+// With N = Su x Sv, d = a Su + b Sv: of a ribbon 1e10 times longer than wide N is what cancellation
+// leaves of the tangents, still six digits; the determinant of their products would have none.
 static double normal_curvature(const BezierJet *s, Vec3 n, Vec3 d) {
-    double e = vec_dot(s->su, s->su), f = vec_dot(s->su, s->sv), g = vec_dot(s->sv, s->sv);
-    double det = e * g - f * f, du = vec_dot(d, s->su), dv = vec_dot(d, s->sv);
-    if (!(det > 1e-12 * e * g))
+    Vec3 across = vec_cross(s->su, s->sv);
+    double square = vec_dot(across, across);
+    double least = 64.0 * DBL_EPSILON * vec_length(s->su) * vec_length(s->sv);
+    if (!(square > least * least))
         return 0.0;
-    double a = (g * du - f * dv) / det, b = (e * dv - f * du) / det;
+    double a = vec_dot(vec_cross(d, s->sv), across) / square;
+    double b = vec_dot(vec_cross(s->su, d), across) / square;
     Vec3 bend = vec_scale(s->suu, a * a);
     bend = vec_madd(bend, 2.0 * a * b, s->suv);
     bend = vec_madd(bend, b * b, s->svv);

@@ -165,8 +165,8 @@ bool qi_frame_init(QiFrame *f, QiFrameKind kind, const Bezier *patch, const QiQu
     // An error of z moves the ray's point by |dir| / length as much.
     f->stretch = vec_length(dir) / f->length;
     f->rounding = sqrt(f->slack_x * f->slack_x + f->slack_y * f->slack_y) + f->stretch * f->slack_z;
-    double least = 0.5 * floor_of(out->du, out->dv, f->rounding);
-    f->tolerance = larger(ldexp(query->tolerance, f->exponent), least);
+    f->least_tolerance = 0.5 * floor_of(out->du, out->dv, f->rounding);
+    f->tolerance = larger(ldexp(query->tolerance, f->exponent), f->least_tolerance);
     f->z_low = depth_of(f, query->t_min, -8.0) - f->slack_z;
     f->z_high = depth_of(f, query->t_max, 8.0) + f->slack_z;
     return true;

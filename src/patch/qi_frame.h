@@ -28,6 +28,7 @@ typedef struct {
     double slack_x, slack_y, slack_z; // rounding of any point or net point derived
     double rounding;                  // of a distance in space, from all three
     double tolerance;                 // the query's, or what rounding allows
+    double least_tolerance;           // what rounding allows
     double z_low, z_high;             // depths that t_min and t_max allow, rounded outwards
 } QiFrame;
 

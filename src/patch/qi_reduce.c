@@ -41,6 +41,10 @@ enum { LINE = BEZIER_MAX_DEGREE + 1, POINTS = BEZIER_MAX_POINTS };
 // Halving stops at parameter widths of 2^-49, where a piece spans less than 16 ulps.
 enum { HALVINGS = 49, STACK = 2 * HALVINGS + 2 };
 static const double LEAST_WIDTH = 0x1p-49;
+// As many nets look for what rounding can tell; only then is the tolerance made use of. So a ribbon
+// that is narrower than the tolerance is not hit beside it, and of two crossings nearer to each
+// other than that the first is found.
+static const uint64_t PATIENCE = 96;
 // L from which on Newton cannot fail, and from which on it is tried.
 static const double CERTAIN_SLOPE = 0.25, LIKELY_SLOPE = 0.75;
 
@@ -291,7 +295,13 @@ typedef struct {
     bool along_u, low_first;
 } Rest;
 
-// A (x, y), after x and y were brought to one size. False: the mean Jacobian does not allow it.
+// Rounding of a form's value.
+static double form_slack(QiForm f, const QiFrame *frame) {
+    return fabs(f.bx) * frame->slack_x + fabs(f.by) * frame->slack_y;
+}
+
+// A (x, y), after x and y were brought to one size. False: the mean Jacobian does not allow it, or
+// rounding would hide where in the piece a root is (a ribbon may be thinner than that all over).
 static inline bool regular_forms(const QiTarget *q, double xu, double yu, double xv, double yv,
                                  QiForm forms[2]) {
     double wx = q->weight_x, wy = q->weight_y;
@@ -303,7 +313,7 @@ static inline bool regular_forms(const QiTarget *q, double xu, double yu, double
         return false;
     forms[0] = (QiForm){yv / det * wx, -xv / det * wy, 1.0, 0.0};
     forms[1] = (QiForm){-yu / det * wx, xu / det * wy, 0.0, 1.0};
-    return true;
+    return form_slack(forms[0], &q->frame) <= 0.5 && form_slack(forms[1], &q->frame) <= 0.5;
 }
 
 // The rotation of x and y in units of their rounding.
@@ -408,11 +418,6 @@ static inline bool reduce_piece(Search *q, int du, int dv, Piece *p) {
     return true;
 }
 
-// Rounding of a form's value.
-static double form_slack(QiForm f, const QiFrame *frame) {
-    return fabs(f.bx) * frame->slack_x + fabs(f.by) * frame->slack_y;
-}
-
 // Is there one root at most, and was it found or proved absent?
 static bool finish_single(Search *q, const Piece *p) {
     double slope = larger(p->bounds[0].slope, p->bounds[1].slope);
@@ -490,12 +495,13 @@ static inline bool finish_singular(Search *q, int count, const Piece *p, bool le
         weak_form(&p->net, count, f[1], 16.0 * form_slack(f[1], frame)) &&
         qi_root_settle_curve(&q->target, p->left, f[0], form_slack(f[0], frame)))
         return true;
-    bool near = q->target.rational ? within_rational(&p->net, count, frame->tolerance)
-                                   : within(&p->net, count, frame->tolerance);
+    double radius = q->steps <= PATIENCE ? frame->least_tolerance : frame->tolerance;
+    bool near = q->target.rational ? within_rational(&p->net, count, radius)
+                                   : within(&p->net, count, radius);
     if (!least && !near)
         return false;
     Span depth = span_of(p->net.z, count);
-    if (least || (depth.high - depth.low) * frame->stretch <= frame->tolerance) {
+    if (least || (depth.high - depth.low) * frame->stretch <= radius) {
         // One place, as far as the tolerance can tell: it is in range, or it is not. (A range may
         // begin on a pole.)
         qi_root_settle(&q->target, p->left);

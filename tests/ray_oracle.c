@@ -8,12 +8,18 @@ enum {
     SIDE = 17,
     POINTS = SIDE * SIDE,
     DEPTH = 200, // halvings of one cell: __float128 has 113 bits each way
-    QUICK_DEPTH = 110,
-    QUICK_BUDGET = 600,
-    EXACT_BUDGET = 4000,
+    QUICK_DEPTH = 44,
+    QUICK_BUDGET = 200,
+    EXACT_BUDGET = 1000,
     NEAR_BUDGET = 8000,
 };
 #define MARGIN 0x1p-6
+
+// A cell that was left open, or has a root that may lie outside of the patch.
+typedef struct {
+    double u, v, wu, wv;
+} OpenCell;
+enum { OPEN_CELLS = 64 };
 
 typedef struct {
     const PatchDef *def;
@@ -22,6 +28,8 @@ typedef struct {
     double growth; // (1 + 2 MARGIN)^(nu + nv)
     RayOracle *out;
     int first; // item of this patch in out
+    OpenCell cells[OPEN_CELLS];
+    int cell_count; // may exceed OPEN_CELLS: then not all are noted
 } Task;
 
 // ---- Items
@@ -93,6 +101,18 @@ static void add_item(Task *task, double t, double dt, double u, double v, double
 
 // ---- The search
 
+// Halvings are exact in double down to 2^-53 of the patch; a smaller cell is widened to that.
+static void note_cell(Task *task, double u, double v, double wu, double wv) {
+    const double least = 0x1p-48;
+    if (task->cell_count++ >= OPEN_CELLS)
+        return;
+    if (wu < least)
+        u = fmax(u - least, 0.0), wu = fmin(3.0 * least, 1.0 - u);
+    if (wv < least)
+        v = fmax(v - least, 0.0), wv = fmin(3.0 * least, 1.0 - v);
+    task->cells[task->cell_count - 1] = (OpenCell){u, v, wu, wv};
+}
+
 #define REAL double
 #define UNIT 0x1p-53
 #define WIDE long double
@@ -112,12 +132,27 @@ static void add_item(Task *task, double t, double dt, double u, double v, double
 #define NAME(x) exact_##x
 #include "ray_oracle_cells.h"
 
+// What the quick search leaves open is searched again, exactly, and only there.
 void ray_oracle_find(RayOracle *oracle, const PatchDef *def, const Ray *ray,
                      RayOraclePrecision precision) {
-    Task task = {def, ray, (int)def->degree_u, (int)def->degree_v, 0.0, oracle, oracle->count};
+    Task task = {.def = def, .ray = ray, .out = oracle, .first = oracle->count};
+    task.nu = (int)def->degree_u;
+    task.nv = (int)def->degree_v;
+    int open = oracle->open;
     task.growth = pow(1.0 + 2.0 * MARGIN, task.nu + task.nv);
-    if (precision == ORACLE_QUICK)
-        quick_find(&task, QUICK_BUDGET, QUICK_DEPTH);
+    quick_find(&task, QUICK_BUDGET, QUICK_DEPTH);
+    if (precision == ORACLE_QUICK || !task.cell_count)
+        return;
+    int kept = task.first, noted = task.cell_count;
+    for (int k = task.first; noted <= OPEN_CELLS && k < oracle->count; k++)
+        if (oracle->root[k].kind == ROOT_CERTAIN)
+            oracle->root[kept++] = oracle->root[k];
+    oracle->count = kept;
+    oracle->open = open;
+    OpenCell cells[OPEN_CELLS];
+    memcpy(cells, task.cells, sizeof cells);
+    if (noted <= OPEN_CELLS)
+        exact_find_in(&task, cells, noted, EXACT_BUDGET, DEPTH);
     else
         exact_find(&task, EXACT_BUDGET, DEPTH);
 }

@@ -27,6 +27,7 @@ typedef struct {
     NAME(Cell) cells[DEPTH + 2];
     REAL z[POINTS], w[POINTS]; // t of the control points, times their weights; the weights
     REAL ez, slope_u, slope_v; // rounding of t; bounds of |dt/du| and |dt/dv|
+    NAME(Cell) whole;
 } NAME(Work);
 
 static _Thread_local NAME(Work) NAME(work);
@@ -215,9 +216,51 @@ static void NAME(add)(Task *task, REAL u, REAL v, REAL ru, REAL rv, RayOracleKin
     add_item(task, (double)t, (double)dt, (double)u, (double)v, (double)ru, (double)rv, kind);
 }
 
+// Control points of the part [a,b] of a curve: the blossom of a and b, k times b. In place.
+static inline void NAME(restrict_line)(REAL *p, int step, int n, REAL a, REAL b) {
+    REAL out[SIDE];
+    for (int k = 0; k <= n; k++) {
+        REAL row[SIDE];
+        for (int i = 0; i <= n; i++)
+            row[i] = p[i * step];
+        for (int level = n; level > 0; level--) {
+            REAL t = level > k ? a : b;
+            for (int i = 0; i < level; i++)
+                row[i] = (1 - t) * row[i] + t * row[i + 1];
+        }
+        out[k] = row[0];
+    }
+    for (int k = 0; k <= n; k++)
+        p[k * step] = out[k];
+}
+
+// One level of that errs by 3 UNIT of the largest value: 4 (nu + nv) UNIT in all.
+static void NAME(restrict)(int nu, int nv, REAL *p, REAL u, REAL wu, REAL v, REAL wv) {
+    for (int j = 0; j <= nv; j++)
+        NAME(restrict_line)(p + j, nv + 1, nu, u, u + wu);
+    for (int i = 0; i <= nu; i++)
+        NAME(restrict_line)(p + i * (nv + 1), 1, nv, v, v + wv);
+}
+
+// The depths of all of the cell, so that what lies behind an answer need not be decided.
 static void NAME(leave_open)(Task *task, const NAME(Cell) * c) {
-    REAL half = (REAL)0.5;
-    NAME(add)(task, c->u + half * c->wu, c->v + half * c->wv, c->wu, c->wv, ROOT_OPEN);
+    const REAL half = (REAL)0.5;
+    REAL z[POINTS], w[POINTS], low = 0, high = 0;
+    int nu = task->nu, nv = task->nv, count = (nu + 1) * (nv + 1);
+    memcpy(z, NAME(work).z, sizeof z[0] * (size_t)count);
+    memcpy(w, NAME(work).w, sizeof w[0] * (size_t)count);
+    NAME(restrict)(nu, nv, z, c->u, c->wu, c->v, c->wv);
+    if (task->def->weights)
+        NAME(restrict)(nu, nv, w, c->u, c->wu, c->v, c->wv);
+    for (int k = 0; k < count; k++) {
+        REAL t = task->def->weights ? z[k] / w[k] : z[k];
+        low = k == 0 || t < low ? t : low;
+        high = k == 0 || t > high ? t : high;
+    }
+    note_cell(task, (double)c->u, (double)c->v, (double)c->wu, (double)c->wv);
+    add_item(task, (double)(half * (low + high)), (double)(half * (high - low) + NAME(work).ez),
+             (double)(c->u + half * c->wu), (double)(c->v + half * c->wv), (double)c->wu,
+             (double)c->wv, ROOT_OPEN);
 }
 
 // A cell with L small: its root, if it has one, or none. False: not decided.
@@ -261,6 +304,8 @@ static inline bool NAME(settle)(Task *task, int nu, int nv, const NAME(Cell) * c
     if (u + ru < 0 || u - ru > 1 || v + rv < 0 || v - rv > 1)
         return true; // proved to lie outside
     bool inside = u - ru >= 0 && u + ru <= 1 && v - rv >= 0 && v + rv <= 1;
+    if (!inside)
+        note_cell(task, (double)c->u, (double)c->v, (double)c->wu, (double)c->wv);
     NAME(add)(task, u, v, ru, rv, inside ? ROOT_CERTAIN : ROOT_BORDER);
     return true;
 }
@@ -387,10 +432,32 @@ static void NAME(project)(const Task *task) {
     NAME(work).slope_v = task->nv * (sv + (REAL)far * wv) / (REAL)least;
 }
 
-static void NAME(find)(Task *task, int budget, int depth_limit) {
-    NAME(project)(task);
+static void NAME(search_first)(Task *task, int budget, int depth_limit) {
     if (task->nu == 3 && task->nv == 3)
         NAME(search)(task, 3, 3, budget, depth_limit);
     else
         NAME(search)(task, task->nu, task->nv, budget, depth_limit);
+}
+
+static void NAME(find)(Task *task, int budget, int depth_limit) {
+    NAME(project)(task);
+    NAME(search_first)(task, budget, depth_limit);
+}
+
+// Only in some cells, that another search left open.
+static inline void NAME(find_in)(Task *task, const OpenCell *cells, int count, int budget,
+                                 int depth_limit) {
+    int nu = task->nu, nv = task->nv, points = (nu + 1) * (nv + 1);
+    NAME(project)(task);
+    NAME(Cell) *c = &NAME(work).cells[0], *whole = &NAME(work).whole;
+    *whole = *c;
+    for (int n = 0; n < count; n++) {
+        *c = *whole;
+        c->u = cells[n].u, c->v = cells[n].v, c->wu = cells[n].wu, c->wv = cells[n].wv;
+        NAME(restrict)(nu, nv, c->x, c->u, c->wu, c->v, c->wv);
+        NAME(restrict)(nu, nv, c->y, c->u, c->wu, c->v, c->wv);
+        c->ex += 4 * (nu + nv) * UNIT * NAME(most)(whole->x, points);
+        c->ey += 4 * (nu + nv) * UNIT * NAME(most)(whole->y, points);
+        NAME(search_first)(task, budget, depth_limit);
+    }
 }

@@ -393,8 +393,9 @@ bool ray_oracle_near(const PatchDef *defs, int count, const Ray *ray, double t0,
 
 // ---- Points
 
-// Bernstein polynomials of degree n and their derivatives: all terms are >= 0 for t in [0,1], so a
-// sum of them keeps its relative accuracy, that of weights too.
+// Bernstein polynomials of degree n, and n times those of degree n - 1, which the differences of
+// control points have in the derivative: equal points have the derivative 0 exactly. All terms are
+// >= 0 for t in [0,1], so a sum of them keeps its relative accuracy, that of weights too.
 static void basis(int n, Real t, Real *value, Real *slope) {
     Real low[SIDE] = {1};
     for (int m = 1; m < n; m++) {
@@ -403,9 +404,8 @@ static void basis(int n, Real t, Real *value, Real *slope) {
         low[0] *= 1 - t;
     }
     for (int i = 0; i <= n; i++) {
-        Real here = i < n ? low[i] : 0, before = i > 0 ? low[i - 1] : 0;
-        value[i] = here * (1 - t) + before * t;
-        slope[i] = n * (before - here);
+        value[i] = (i < n ? low[i] * (1 - t) : 0) + (i > 0 ? low[i - 1] * t : 0);
+        slope[i] = i < n ? n * low[i] : 0;
     }
 }
 
@@ -418,20 +418,25 @@ typedef struct {
 static void coordinate(const PatchDef *def, const Basis *b, int axis, double from, bool slopes,
                        Real out[3]) {
     int nu = (int)def->degree_u, nv = (int)def->degree_v;
+    Real before = 0;
     out[0] = out[1] = out[2] = 0;
     for (int i = 0; i <= nu; i++) {
-        Real row = 0, slope = 0;
+        Real row = 0, slope = 0, last = 0;
         for (int j = 0; j <= nv; j++) {
             int k = i * (nv + 1) + j;
             Real p = axis < 3 ? (Real)vec_get(def->points[k], axis) - from : 1;
             if (def->weights)
                 p *= def->weights[k];
             row += b->v[j] * p;
-            slope += slopes ? b->slope_v[j] * p : 0;
+            if (slopes && j > 0)
+                slope += b->slope_v[j - 1] * (p - last);
+            last = p;
         }
         out[0] += b->u[i] * row;
-        out[1] += b->slope_u[i] * row;
+        if (i > 0)
+            out[1] += b->slope_u[i - 1] * (row - before);
         out[2] += b->u[i] * slope;
+        before = row;
     }
 }
 

@@ -14,6 +14,11 @@
 // or what rounding alone can do if that is more. No crossing is missed, also on edges that patches
 // share, and none is made up beyond the tolerance.
 //
+// Where infinitely many points are on the ray (it lies in a flat patch, runs along a ruling, or the
+// patch is a curve along it) the answer is the one with the smallest t of the range, within the
+// tolerance; a patch that is one point or a curve across the ray is hit when the ray passes it by
+// no more than rounding. The work of a ray at one patch is bounded.
+//
 // Errors. A call that can fail returns a QipatchError; qipatch_error_text() says more about the
 // last one of the scene. Nothing is printed, and the program is never ended.
 //

@@ -473,17 +473,49 @@ double ray_oracle_residual(const PatchDef *def, const Ray *ray, double t, double
     return (double)sqrtl(square);
 }
 
+// Moves (u,v) towards the ray by the shortest way, as far as the larger tangent across it leads.
+// Returns what is left of the distance, and how far along the ray that is.
+static Real approach(const PatchDef *def, const Ray *ray, const Frame *f, Real at[2], Real *depth) {
+    Real off = 0;
+    for (int step = 0; step < 5; step++) {
+        Real s[3][3], q[3], su[3], sv[3];
+        jet_less(def, ray->org, at[0], at[1], true, s);
+        for (int axis = 0; axis < 3; axis++)
+            q[axis] = s[axis][0], su[axis] = s[axis][1], sv[axis] = s[axis][2];
+        Real x = along(q, f->e1), y = along(q, f->e2);
+        Real xu = along(su, f->e1), yu = along(su, f->e2), xv = along(sv, f->e1),
+             yv = along(sv, f->e2);
+        off = hypotl(x, y);
+        *depth = along(q, f->w);
+        // (J J^T + damping)^-1 (x, y)
+        Real a = xu * xu + xv * xv, b = xu * yu + xv * yv, c = yu * yu + yv * yv;
+        Real damping = 1e-12L * (a + c);
+        a += damping, c += damping;
+        Real det = a * c - b * b, p = (c * x - b * y) / det, r = (a * y - b * x) / det;
+        if (!(det > 0) || step == 4)
+            break;
+        at[0] = fminl(fmaxl(at[0] - (xu * p + yu * r), 0), 1);
+        at[1] = fminl(fmaxl(at[1] - (xv * p + yv * r), 0), 1);
+    }
+    return off;
+}
+
 bool ray_oracle_way(const PatchDef *def, const Ray *ray, const double from[2], const double to[2],
                     double reach) {
     enum { STEPS = 32 };
     Frame f = frame_of(ray);
+    Real depth[STEPS + 1];
     for (int n = 0; n <= STEPS; n++) {
-        Real s[3][3], share = (Real)n / STEPS;
-        jet_less(def, ray->org, from[0] + share * ((Real)to[0] - from[0]),
-                 from[1] + share * ((Real)to[1] - from[1]), false, s);
-        const Real q[3] = {s[0][0], s[1][0], s[2][0]};
-        if (!(hypotl(along(q, f.e1), along(q, f.e2)) <= reach))
+        Real share = (Real)n / STEPS;
+        Real at[2] = {from[0] + share * ((Real)to[0] - from[0]),
+                      from[1] + share * ((Real)to[1] - from[1])};
+        if (!(approach(def, ray, &f, at, &depth[n]) <= reach))
             return false;
     }
+    // Between two crossings apart all would have come to either, with one step from this to that.
+    Real most = fabsl(depth[STEPS] - depth[0]) / 8 + reach;
+    for (int n = 1; n <= STEPS; n++)
+        if (!(fabsl(depth[n] - depth[n - 1]) <= most))
+            return false;
     return true;
 }

@@ -473,11 +473,13 @@ double ray_oracle_residual(const PatchDef *def, const Ray *ray, double t, double
     return (double)sqrtl(square);
 }
 
-// Moves (u,v) towards the ray by the shortest way, as far as the larger tangent across it leads.
+// Moves (u,v) towards the ray by the shortest way, as far as the larger tangent across it leads, in
+// so many steps.
 // Returns what is left of the distance, and how far along the ray that is.
-static Real approach(const PatchDef *def, const Ray *ray, const Frame *f, Real at[2], Real *depth) {
+static Real approach(const PatchDef *def, const Ray *ray, const Frame *f, int steps, Real at[2],
+                     Real *depth) {
     Real off = 0;
-    for (int step = 0; step < 5; step++) {
+    for (int step = 0; step <= steps; step++) {
         Real s[3][3], q[3], su[3], sv[3];
         jet_less(def, ray->org, at[0], at[1], true, s);
         for (int axis = 0; axis < 3; axis++)
@@ -492,7 +494,7 @@ static Real approach(const PatchDef *def, const Ray *ray, const Frame *f, Real a
         Real damping = 1e-12L * (a + c);
         a += damping, c += damping;
         Real det = a * c - b * b, p = (c * x - b * y) / det, r = (a * y - b * x) / det;
-        if (!(det > 0) || step == 4)
+        if (!(det > 0) || step == steps)
             break;
         at[0] = fminl(fmaxl(at[0] - (xu * p + yu * r), 0), 1);
         at[1] = fminl(fmaxl(at[1] - (xv * p + yv * r), 0), 1);
@@ -500,22 +502,28 @@ static Real approach(const PatchDef *def, const Ray *ray, const Frame *f, Real a
     return off;
 }
 
-bool ray_oracle_way(const PatchDef *def, const Ray *ray, const double from[2], const double to[2],
-                    double reach) {
-    enum { STEPS = 32 };
+// The straight way, each place moved towards the ray.
+static bool way_within(const PatchDef *def, const Ray *ray, const double from[2],
+                       const double to[2], double reach, int steps) {
+    enum { PLACES_ON_WAY = 32 };
     Frame f = frame_of(ray);
-    Real depth[STEPS + 1];
-    for (int n = 0; n <= STEPS; n++) {
-        Real share = (Real)n / STEPS;
+    Real depth[PLACES_ON_WAY + 1];
+    for (int n = 0; n <= PLACES_ON_WAY; n++) {
+        Real share = (Real)n / PLACES_ON_WAY;
         Real at[2] = {from[0] + share * ((Real)to[0] - from[0]),
                       from[1] + share * ((Real)to[1] - from[1])};
-        if (!(approach(def, ray, &f, at, &depth[n]) <= reach))
+        if (!(approach(def, ray, &f, steps, at, &depth[n]) <= reach))
             return false;
     }
     // Between two crossings apart all would have come to either, with one step from this to that.
-    Real most = fabsl(depth[STEPS] - depth[0]) / 8 + reach;
-    for (int n = 1; n <= STEPS; n++)
+    Real most = fabsl(depth[PLACES_ON_WAY] - depth[0]) / 8 + reach;
+    for (int n = 1; n <= PLACES_ON_WAY; n++)
         if (!(fabsl(depth[n] - depth[n - 1]) <= most))
             return false;
     return true;
+}
+
+bool ray_oracle_way(const PatchDef *def, const Ray *ray, const double from[2], const double to[2],
+                    double reach) {
+    return way_within(def, ray, from, to, reach, 0) || way_within(def, ray, from, to, reach, 4);
 }

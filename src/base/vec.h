@@ -58,6 +58,10 @@ static inline Box box_extend(Box b, Vec3 p) { return (Box){vec_min(b.low, p), ve
 static inline Box box_union(Box a, Box b) {
     return (Box){vec_min(a.low, b.low), vec_max(a.high, b.high)};
 }
+static inline bool box_has(const Box *box, Vec3 p) {
+    return p.x >= box->low.x && p.x <= box->high.x && p.y >= box->low.y && p.y <= box->high.y &&
+           p.z >= box->low.z && p.z <= box->high.z;
+}
 
 // An affine map and its inverse, kept side by side as POV-Ray does, so that both have its bits:
 // composing multiplies both. Rows 0..2 are the images of the axes, row 3 the translation.

@@ -12,11 +12,6 @@ static Box box_common(Box a, Box b) {
     return (Box){vec_max(a.low, b.low), vec_min(a.high, b.high)};
 }
 
-static bool box_has(const Box *box, Vec3 p) {
-    return p.x >= box->low.x && p.x <= box->high.x && p.y >= box->low.y && p.y <= box->high.y &&
-           p.z >= box->low.z && p.z <= box->high.z;
-}
-
 // Inside tests have a slack of SHAPE_EPSILON in units of the primitive, and points are rounded. A
 // millionth of the box's size and place is above both, and still costs no tests worth counting.
 static Box widened(Box box) {
@@ -83,6 +78,20 @@ static uint32_t make_list(Maker *maker, const ObjectList *list, uint32_t parent,
     return first;
 }
 
+// What is within all of a list of shapes. Twice: planes at the end of the list bound quadrics at
+// its beginning.
+static void narrow(const Maker *maker, CsgNode *node, uint32_t list) {
+    for (int round = 0; round < 2; round++) {
+        for (uint32_t c = list; c != NO_INDEX; c = maker->nodes.items[c].next) {
+            const Shape *shape = maker->nodes.items[c].shape;
+            if (!shape || !maker->nodes.items[c].solid)
+                continue;
+            node->inside = shape_within(shape, node->inside);
+            node->reach = shape_within(shape, node->reach);
+        }
+    }
+}
+
 // What all children together contain, and where their surfaces are. The surface of an intersection
 // lies within each child, or on it.
 static void join_children(const Maker *maker, CsgNode *node) {
@@ -98,6 +107,8 @@ static void join_children(const Maker *maker, CsgNode *node) {
         node->solid_count += child->solid;
     }
     node->solid = node->solid_count > 0 && (!all || node->solid_count == node->child_count);
+    if (all)
+        narrow(maker, node, node->first);
 }
 
 // Also inverted it has its surface where it was.
@@ -129,6 +140,9 @@ static void apply_clips(const Maker *maker, CsgNode *node) {
         node->reach = box_common(node->reach, clip->inside);
         node->solid = node->solid && clip->solid;
     }
+    narrow(maker, node, node->first_clip);
+    if (node->shape)
+        node->reach = shape_within(node->shape, node->reach);
     if (node->object->type == OBJECT_QUADRIC && node->first_clip != NO_INDEX)
         node->reach = box_common(node->reach, clipped_quadric(maker, node));
 }

@@ -11,11 +11,6 @@ static const double PATCH_NEAREST = 1e-5;
 
 // ---- points ---------------------------------------------------------------------------------
 
-static bool box_has(const Box *box, Vec3 p) {
-    return p.x >= box->low.x && p.x <= box->high.x && p.y >= box->low.y && p.y <= box->high.y &&
-           p.z >= box->low.z && p.z <= box->high.z;
-}
-
 // The leaves that contain a point.
 typedef struct {
     const World *world;
@@ -242,9 +237,13 @@ static void try_patches(RayQuery *query) {
 
 static void try_prims(RayQuery *query) {
     const World *world = query->world;
-    for (uint32_t i = world->tree_count; i < world->prim_count; i++)
-        if (!(query->any && query->leaf))
-            try_prim(query, &world->prims[i]);
+    for (uint32_t i = world->tree_count; i < world->prim_count && !(query->any && query->leaf);
+         i++) {
+        const Prim *prim = &world->prims[i];
+        // Bounds are all that keeps rays away from what has no box.
+        if (prim->leaf.gate == NO_INDEX || is_admitted(query, &prim->leaf))
+            try_prim(query, prim);
+    }
     if (world->tree_count > 0 && !(query->any && query->leaf))
         bvh_walk(&world->tree, query->ray, fmax(query->t_min, 0.0), query->t, try_item, query);
 }

@@ -91,3 +91,7 @@ SolidData quadric_prepare(const QuadricShape *quadric, Arena *arena) {
     bool around = quadric->square.x < 0.0 || quadric->square.y < 0.0 || quadric->square.z < 0.0;
     return (SolidData){around ? &OPS_AROUND : &OPS, quadric, box_of(quadric)};
 }
+
+const QuadricShape *solid_quadric(const SolidData *solid) {
+    return solid->ops == &OPS || solid->ops == &OPS_AROUND ? solid->data : NULL;
+}

@@ -48,6 +48,7 @@ Box solid_bounds(const Shape *shape);
 // Each returns what it made in arena; an infinite box where the surface has none.
 #define SOLID_INFINITE ((Box){{-INFINITY, -INFINITY, -INFINITY}, {INFINITY, INFINITY, INFINITY}})
 SolidData quadric_prepare(const QuadricShape *quadric, Arena *arena);
+const QuadricShape *solid_quadric(const SolidData *solid); // NULL: it is another primitive
 SolidData poly_prepare(const PolyShape *poly, Arena *arena);
 SolidData superellipsoid_prepare(const SuperellipsoidShape *shape, Arena *arena);
 SolidData lathe_prepare(const LatheShape *lathe, Arena *arena);

@@ -131,8 +131,8 @@ bool shape_has_inside(const Shape *shape);
 // unbounded: then shape_inside_bounded is false.
 Box shape_bounds(const Shape *shape);
 bool shape_inside_bounded(const Shape *shape);
-// Holds what of the inside and of the surface lies in `around` (which may be infinite): planes along
-// the axes cut it, and so do quadrics. Others leave it as it is.
+// Holds what of the inside and of the surface lies in `around` (which may be infinite): planes
+// along the axes cut it, and so do quadrics. Others leave it as it is.
 Box shape_within(const Shape *shape, Box around);
 // The bounds in a space that `space` (NULL: it is the world) takes to the world.
 Box shape_bounds_in(const Shape *shape, const Transform *space);

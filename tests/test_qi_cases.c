@@ -7,6 +7,7 @@
 
 #include <cmocka.h>
 
+#include "patch/patch.h"
 #include "patch/qi.h"
 #include "ray_oracle.h"
 
@@ -60,6 +61,29 @@ static const Found ribbons[] = {
       {-1882889724.0278897, 5657820917.8211079, 15438509152.556946}}},
 };
 
+// The same, to be found by the set, which has cut the patch into two halves.
+static const Found cut_ribbons[] = {
+    {"tangent; of a half v = 0 alone was searched, and a crossing 4.6e9 behind came out",
+     {{2456620995.5706, 9129252494.4931717, -3259104505.21488},
+      {2456620995.6101451, 9129252494.595602, -3259104504.8981462},
+      {2456620995.582521, 9129252494.7194786, -3259104504.5719724},
+      {2456620995.4877267, 9129252494.8647995, -3259104504.2363586},
+      {-818873665.81966794, -3043084164.6300888, 1086368168.4934261},
+      {-818873665.78012264, -3043084164.5276575, 1086368168.8101599},
+      {-818873665.80774689, -3043084164.4037814, 1086368169.1363337},
+      {-818873665.90254092, -3043084164.25846, 1086368169.4719479},
+      {-818873663.93126357, -3043084165.2329922, 1086368168.2280276},
+      {-818873663.89171815, -3043084165.1305609, 1086368168.5447614},
+      {-818873663.91934252, -3043084165.0066848, 1086368168.8709354},
+      {-818873664.01413643, -3043084164.8613634, 1086368169.2065494},
+      {2456620993.6821952, 9129252495.0960732, -3259104504.949482},
+      {2456620993.7217407, 9129252495.1985054, -3259104504.6327481},
+      {2456620993.6941166, 9129252495.322382, -3259104504.3065739},
+      {2456620993.5993223, 9129252495.4677029, -3259104503.9709601}},
+     {{-2908328739.1009912, -10807881016.996483, 3858367782.6691132},
+      {0.24566209934624061, 0.91292524953140508, -0.32591045045045663}}},
+};
+
 static void check(const Found *found) {
     Bezier s;
     bezier_init(&s, 3, 3, found->points);
@@ -79,6 +103,37 @@ static void rays_at_ribbons(void **state) {
     (void)state;
     for (size_t k = 0; k < sizeof ribbons / sizeof ribbons[0]; k++)
         check(&ribbons[k]);
+}
+
+static PatchSet *set_of(const PatchDef *def) {
+    PatchSetOptions options = patchset_options_default();
+    PatchSet *set = patchset_create(&options);
+    patchset_add(set, def);
+    patchset_commit(set);
+    return set;
+}
+
+// Nothing before the hit, but where the ray is as near to the surface all the way.
+static void prepared_ribbons(void **state) {
+    (void)state;
+    for (size_t k = 0; k < sizeof cut_ribbons / sizeof cut_ribbons[0]; k++) {
+        const Found *found = &cut_ribbons[k];
+        check(found);
+        Bezier s;
+        bezier_init(&s, 3, 3, found->points);
+        PatchDef def = {.degree_u = 3, .degree_v = 3, .points = found->points, .mask = UINT32_MAX};
+        PatchSet *set = set_of(&def);
+        QiQuery q = qi_query_default(&s, found->ray);
+        QiHit first;
+        PatchHit hit;
+        assert_true(qi_reduce_nearest(&s, &q, NULL, &first));
+        assert_true(patchset_intersect(set, &q.ray, 0.0, INFINITY, UINT32_MAX, NULL, &hit));
+        assert_true(ray_oracle_residual(&def, &q.ray, hit.t, hit.u, hit.v) <= hit.bound);
+        double near = 4.0 * fmax(first.bound, hit.bound);
+        if (hit.t > first.t && !ray_oracle_near(&def, 1, &q.ray, first.t, hit.t, near))
+            fail_msg("%s: t %.17g, first %.17g", found->before, hit.t, first.t);
+        patchset_destroy(set);
+    }
 }
 
 // A quarter of a cap: the side u = 0 is its top, where it is level; `both` makes v = 0 the top too.
@@ -114,6 +169,7 @@ static void flat_rays_at_poles(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(rays_at_ribbons),
+        cmocka_unit_test(prepared_ribbons),
         cmocka_unit_test(flat_rays_at_poles),
     };
     return cmocka_run_group_tests_name("qi_cases", tests, NULL, NULL);

@@ -50,17 +50,19 @@ static void narrow(double scale, double shift, double rest, double middle, doubl
         *to = larger(high, *from);
 }
 
-// Not part of the loop that must stay in registers.
+// Not part of the loop that must stay in registers. Beyond k = 1 the box is larger by what a ray
+// from far away errs (ray.h), and so are x and y known less well than the piece's rests say.
 __attribute__((noinline)) static bool search_rest(Walk *walk, const Piece *piece,
                                                   const LeafLanes *lanes, int lane, float k) {
     BezierRect rect = piece_rect(piece);
     double qz = (double)lanes->q[2][lane], pz = (double)lanes->p[2][lane];
     if (fabs(qz) > 0.0 && piece->rest_a < 2.0f && piece->rest_b < 2.0f) {
         double gx = (double)lanes->q[0][lane] / qz, gy = (double)lanes->q[1][lane] / qz;
+        double half = (double)k, more = half - 1.0;
         narrow((double)piece->scale_a, (double)piece->shift_a, (double)piece->rest_a,
-               (double)lanes->p[0][lane] - pz * gx, (double)k * fabs(gx), &rect.u0, &rect.u1);
+               (double)lanes->p[0][lane] - pz * gx, half * fabs(gx) + more, &rect.u0, &rect.u1);
         narrow((double)piece->scale_b, (double)piece->shift_b, (double)piece->rest_b,
-               (double)lanes->p[1][lane] - pz * gy, (double)k * fabs(gy), &rect.v0, &rect.v1);
+               (double)lanes->p[1][lane] - pz * gy, half * fabs(gy) + more, &rect.v0, &rect.v1);
     }
     return search_rect(walk, piece, rect);
 }

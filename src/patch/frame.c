@@ -446,7 +446,14 @@ void frame_to_lane(const PieceFrame *frame, const Bezier *part, const Tree *tree
     piece->scale_b = scale[1];
     piece->shift_a = shift[0];
     piece->shift_b = shift[1];
-    // Those are rounded to float, and so are the products with them.
-    piece->rest_a = up(frame->rest[0] + 0x1p-20 * (double)(scale[0] + fabsf(shift[0])));
-    piece->rest_b = up(frame->rest[1] + 0x1p-20 * (double)(scale[1] + fabsf(shift[1])));
+    // Those are rounded to float, and so are the products with them. And a ray's x in the frame
+    // errs by what the box was made larger for.
+    float rest[2];
+    for (int k = 0; k < 2; k++) {
+        double off = 64.0 * w * lengths[k] * reach + 16.0 * w;
+        rest[k] = up(frame->rest[k] + off * (double)scale[k] +
+                     0x1p-20 * (double)(scale[k] + fabsf(shift[k])));
+    }
+    piece->rest_a = rest[0];
+    piece->rest_b = rest[1];
 }

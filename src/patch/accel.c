@@ -7,10 +7,12 @@
 #include "patch/walk.h"
 
 // The same crossing found from two pieces? Both are right within their errors. Where the surface
-// is singular (sign 0) only the place in space is well defined.
+// is singular (sign 0) only the place in space is well defined. Within a piece crossings were told
+// apart before (qi.h), and those of a narrow ribbon may be nearer to each other than the tolerance.
 static bool same_root(const WalkSeen *a, const WalkSeen *b) {
-    if (a->patch != b->patch || a->sign * b->sign < 0 ||
-        fabs(a->t - b->t) > a->error_t + b->error_t)
+    bool alone = a->piece == b->piece;
+    double reach = alone ? a->bound_t + b->bound_t : a->error_t + b->error_t;
+    if (a->patch != b->patch || a->sign * b->sign < 0 || fabs(a->t - b->t) > reach)
         return false;
     if (a->sign == 0 || b->sign == 0)
         return true;
@@ -19,14 +21,17 @@ static bool same_root(const WalkSeen *a, const WalkSeen *b) {
 }
 
 static bool was_seen(Walk *walk, const Root *root) {
-    WalkSeen now = {walk->patch,
-                    root->hit.t,
-                    root->hit.u,
-                    root->hit.v,
-                    (root->hit.bound + walk->ray.patch->tolerance) * walk->ray.t_per_s,
-                    root->error_u,
-                    root->error_v,
-                    root->sign};
+    double bound = root->hit.bound, t_per_s = walk->ray.t_per_s;
+    WalkSeen now = {.patch = walk->patch,
+                    .piece = walk->piece,
+                    .t = root->hit.t,
+                    .u = root->hit.u,
+                    .v = root->hit.v,
+                    .bound_t = bound * t_per_s,
+                    .error_t = (bound + walk->ray.patch->tolerance) * t_per_s,
+                    .error_u = root->error_u,
+                    .error_v = root->error_v,
+                    .sign = root->sign};
     uint64_t count = walk->seen_count < WALK_SEEN ? walk->seen_count : WALK_SEEN;
     for (uint64_t i = 0; i < count; i++) {
         if (same_root(&walk->seen[i], &now))

@@ -11,8 +11,10 @@ enum { WALK_SEEN = 64 };
 
 // A hit reported to QUERY_ALL, kept to know it again.
 typedef struct {
-    uint32_t patch;
-    double t, u, v, error_t, error_u, error_v;
+    uint32_t patch, piece;
+    double t, u, v;
+    double bound_t, error_t; // of t: by the bound; with the tolerance besides
+    double error_u, error_v;
     int sign;
 } WalkSeen;
 

@@ -3,6 +3,7 @@
 // asked for and its '#' comes up; it leaves the stream at the token after it.
 #include "converter/language.h"
 
+#include <limits.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -127,10 +128,10 @@ static void run_version(Converter *cv) {
     token = peek_token(cv);
     Loc loc = token_loc(cv, token);
     double version = parse_float(cv) * 100 + 0.5;
-    if (!(version >= 1 && version < 371))
+    if (!(version < 371))
         die_at(&loc, "This file requires POV-Ray version %.2f; 3.7 is what is understood here",
                (version - 0.5) / 100);
-    cv->version = (int)version;
+    cv->version = version > INT_MIN ? (int)version : INT_MIN;
     cv->version_set = true;
     if (!cv->noise_generator_set)
         cv->noise_generator = cv->version >= 350 ? 2 : 1;

@@ -495,7 +495,8 @@ static void emit_settings(Emitter *e) {
     const Converter *cv = e->cv;
     Settings *settings = &e->scene->settings;
     *settings = cv->nodes->settings;
-    settings->version = effective_version(cv);
+    int version = effective_version(cv);
+    settings->version = version > 0 ? version : 0; // below 1.0 all are one
     settings->noise_generator = cv->noise_generator;
     if (cv->gamma_set) {
         settings->gamma_mode = cv->gamma_is_srgb ? GAMMA_SRGB : GAMMA_POWER;

@@ -66,11 +66,16 @@ static HeightMap *make_map(Converter *cv, int width, int depth) {
     return map;
 }
 
-static void check_size(Converter *cv, const Token *token, double width, double height) {
+// False: it is too small to have a surface (POV-Ray accepts it, and reads past its ends).
+static bool check_size(Converter *cv, const Token *token, int width, int height) {
     if (width >= 2 && height >= 2 && width <= MAX_SIDE && height <= MAX_SIDE)
-        return;
+        return true;
     Loc loc = token_loc(cv, token);
-    die_at(&loc, "a picture of %g x %g makes no height_field", width, height);
+    if (width > MAX_SIDE || height > MAX_SIDE)
+        die_at(&loc, "a picture of %d x %d makes no height_field", width, height);
+    warn_at(&loc, "a picture of %d x %d makes no height_field: the picture will lack it", width,
+            height);
+    return false;
 }
 
 // The picture's last row is at z = 0.
@@ -104,13 +109,14 @@ static HeightMap *map_of_halves(Converter *cv, const StoredPicture *gif) {
     return map;
 }
 
+// NULL: too small.
 static const HeightMap *map_of_picture(Converter *cv, const Picture *source, const Token *token) {
     Arena *scratch = arena_create();
     const StoredPicture *picture = picture_read(scratch, source->path, source->type == PICTURE_PNG);
     bool pot = source->type == PICTURE_POT && picture->places && !picture->grey_palette;
-    check_size(cv, token, pot ? picture->width / 2 : picture->width, picture->height);
-    const HeightMap *map =
-        pot ? map_of_halves(cv, picture) : map_of_values(cv, picture, source->type);
+    const HeightMap *map = NULL;
+    if (check_size(cv, token, pot ? picture->width / 2 : picture->width, picture->height))
+        map = pot ? map_of_halves(cv, picture) : map_of_values(cv, picture, source->type);
     arena_destroy(scratch);
     return map;
 }
@@ -125,8 +131,10 @@ static double height_of_values(const double *value, int channels) {
     return clip16((double)(grey * 65535.0F));
 }
 
+// NULL: too small.
 static const HeightMap *map_of_function(Converter *cv, const Picture *source, const Token *token) {
-    check_size(cv, token, source->width, source->height);
+    if (!check_size(cv, token, source->width, source->height))
+        return NULL;
     HeightMap *map = make_map(cv, source->width, source->height);
     const double *value = source->values;
     for (int row = 0; row < map->depth; row++)
@@ -150,6 +158,10 @@ void parse_height_field(Converter *cv, ObjectNode *object) {
             field->smooth = true;
         else
             break;
+    }
+    if (!map) { // nothing: flat, and all of it under water
+        map = make_map(cv, 2, 2);
+        field->water_level = 65536.0;
     }
     object->map = map;
     object->object.has_transform = true;

@@ -97,15 +97,16 @@ static void parse_premultiplied(Converter *cv) {
                       "will be darker than POV-Ray's");
 }
 
-// [V] [TYPE] S [gamma F | gamma srgb] [premultiplied F]  |  function W, H { BODY }
+// [V]… [TYPE] S [gamma F | gamma srgb] [premultiplied F]  |  function W, H { BODY }
 void parse_image(Converter *cv, Picture *picture, bool to_working, PictureType refused) {
     *picture = picture_default();
     picture->to_working = to_working;
     picture->decode = usual_decode(cv, to_working);
-    if (!starts_string(cv) && starts_expression(cv))
-        parse_vector(cv); // old: the direction of projection
+    // Old: the direction of projection, which a height_field, the only one to have POT, never had.
+    while (refused == PICTURE_POT && !starts_string(cv) && starts_expression(cv))
+        parse_vector(cv);
     if (accept(cv, KW_function)) {
-        parse_image_function(cv, picture);
+        parse_image_function(cv, picture, refused == PICTURE_POT ? 1 : 0);
         return;
     }
     int type = accept_file_type(cv);
@@ -128,22 +129,35 @@ void parse_image(Converter *cv, Picture *picture, bool to_working, PictureType r
 }
 
 // filter all F | filter F [,] F
-static void parse_clear(Converter *cv, Picture *picture, bool transmit) {
+static void parse_clear(Converter *cv, Picture *picture, int keyword) {
+    bool transmit = keyword == KW_transmit;
     if (accept(cv, KW_all)) {
         *(transmit ? &picture->has_transmit : &picture->has_filter) = true;
         *(transmit ? &picture->transmit : &picture->filter) = (float)parse_float(cv);
         return;
     }
     Loc loc = here(cv);
+    ImagePalette palette = image_palette(picture);
+    if (palette.size == 0)
+        die_at(&loc, "Keyword '%s' cannot be used with non color-mapped image",
+               keyword_name(keyword));
     double place = parse_float(cv) + 0.01;
-    if (!(place > -1 && place < 256))
-        die_at(&loc, "a palette has no colour %g", place - 0.01);
+    if (!(place > -1 && place < palette.size))
+        die_at(&loc, "%s color register value out of range: the palette has %d colors",
+               transmit ? "TRANSMIT" : "FILTER", palette.size);
     optional_comma(cv);
+    float value = (float)parse_float(cv);
+    if (!palette.modelled) {
+        warn_at(&loc,
+                "palettes are modelled of PNG and GIF only: color %d of this picture stays "
+                "as opaque as it is",
+                (int)place);
+        return;
+    }
     PaletteChange *changes = ARENA_ARRAY(cv->arena, PaletteChange, picture->change_count + 1);
     for (uint32_t i = 0; i < picture->change_count; i++)
         changes[i] = picture->changes[i];
-    changes[picture->change_count++] =
-        (PaletteChange){(int)place, transmit, (float)parse_float(cv)};
+    changes[picture->change_count++] = (PaletteChange){(int)place, transmit, value};
     picture->changes = changes;
 }
 
@@ -201,9 +215,31 @@ static void parse_repeat(Converter *cv, Picture *picture) {
         die_at(&loc, "a picture must repeat a positive number of times");
 }
 
-// One option; false: the next token is none. amount: what bump_size sets, or NULL.
-static bool parse_option(Converter *cv, Picture *picture, float *amount) {
+// Whether the option is one of those that not every block with a picture has, and this one has not.
+static bool is_foreign(int option, int block) {
+    switch (option) {
+    case KW_use_color:
+    case KW_use_colour:
+    case KW_use_index:
+        return block == KW_material_map;
+    case KW_use_alpha:
+        return block != KW_image_pattern;
+    case KW_bump_size:
+        return block != KW_bump_map;
+    case KW_filter:
+    case KW_transmit:
+        return block != KW_image_map;
+    default:
+        return false;
+    }
+}
+
+// One option of the block of that keyword; false: the next token is none. amount: what bump_size
+// sets; only a bump_map needs it.
+static bool parse_option(Converter *cv, Picture *picture, int block, float *amount) {
     int code = peek_token(cv)->code;
+    if (is_foreign(code, block))
+        return false;
     switch (code) {
     case KW_once:
     case KW_use_color:
@@ -226,8 +262,6 @@ static bool parse_option(Converter *cv, Picture *picture, float *amount) {
         parse_between(cv, picture, picture->to_working);
         return true;
     case KW_bump_size:
-        if (!amount)
-            return false;
         next_token(cv);
         *amount = (float)parse_float(cv);
         return true;
@@ -242,16 +276,16 @@ static bool parse_option(Converter *cv, Picture *picture, float *amount) {
     case KW_filter:
     case KW_transmit:
         next_token(cv);
-        parse_clear(cv, picture, code == KW_transmit);
+        parse_clear(cv, picture, code);
         return true;
     default:
         return false;
     }
 }
 
-void parse_image_options(Converter *cv, Picture *picture, float *amount) {
-    while (parse_option(cv, picture, amount))
-        optional_comma(cv);
+void parse_image_options(Converter *cv, Picture *picture, int block, float *amount) {
+    while (parse_option(cv, picture, block, amount))
+        continue;
 }
 
 const Picture *parse_image_block(Converter *cv, int keyword, float *amount) {
@@ -259,7 +293,7 @@ const Picture *parse_image_block(Converter *cv, int keyword, float *amount) {
     Picture picture;
     expect(cv, '{', where);
     parse_image(cv, &picture, keyword == KW_image_map, PICTURE_POT);
-    parse_image_options(cv, &picture, keyword == KW_bump_map ? amount : NULL);
+    parse_image_options(cv, &picture, keyword, amount);
     expect(cv, '}', where);
     return arena_copy(cv->arena, &picture, sizeof picture);
 }

@@ -14,10 +14,11 @@ static double stored(double value) {
     return fits ? (double)((uint32_t)(int32_t)scaled & 0xFFFFU) : 0.0;
 }
 
-static int parse_side(Converter *cv) {
+// smallest: 0 where a picture without pixels is accepted.
+static int parse_side(Converter *cv, int smallest) {
     Loc loc = here(cv);
     double side = trunc(parse_float(cv) + 0.5);
-    if (!(side >= 1 && side <= PICTURE_MAX_SIDE))
+    if (!(side >= smallest && side <= PICTURE_MAX_SIDE))
         die_at(&loc, "a picture is 1 to %d pixels wide and high, not %g", PICTURE_MAX_SIDE, side);
     return (int)side;
 }
@@ -31,11 +32,11 @@ static void store_pixel(double *out, int channels, const double color[5]) {
     out[3] = stored((double)(1.0F - (float)color[4]));
 }
 
-void parse_image_function(Converter *cv, Picture *picture) {
+void parse_image_function(Converter *cv, Picture *picture, int smallest) {
     Loc loc = here(cv);
-    int width = parse_side(cv);
+    int width = parse_side(cv, smallest);
     optional_comma(cv);
-    int height = parse_side(cv);
+    int height = parse_side(cv, smallest);
     optional_comma(cv);
     const UserFunction *function = parse_function(cv);
     int components = user_function_width(cv, function);

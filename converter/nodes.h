@@ -140,9 +140,17 @@ const MapNode *map_default(Converter *cv, const PatternInfo *info);
 const Picture *parse_image_block(Converter *cv, int keyword, float *amount);
 // to_working: its colours are meant, not numbers. refused: the type that may not stand here.
 void parse_image(Converter *cv, Picture *picture, bool to_working, PictureType refused);
-// image_function.c: after the keyword `function`.
-void parse_image_function(Converter *cv, Picture *picture);
-void parse_image_options(Converter *cv, Picture *picture, float *amount); // amount may be NULL
+// image_function.c: after the keyword `function`. smallest: of the sides, 0 or 1.
+void parse_image_function(Converter *cv, Picture *picture, int smallest);
+// block: the keyword of what they stand in. amount: needed by a bump_map.
+void parse_image_options(Converter *cv, Picture *picture, int block, float *amount);
+// palette.c: the colours that the palette of the picture has, 0 without one; dies when the file is
+// broken. modelled: the renderer can make single ones of them clear.
+typedef struct {
+    int size;
+    bool modelled;
+} ImagePalette;
+ImagePalette image_palette(const Picture *picture);
 
 // ---- textures: texture.c, finish.c, interior.c
 // ---------------------------------------------------

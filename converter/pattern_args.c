@@ -118,7 +118,7 @@ static void parse_material_map(Converter *cv, PatternNode *pattern) {
     Picture picture;
     expect(cv, '{', "material_map");
     parse_image(cv, &picture, false, PICTURE_POT);
-    parse_image_options(cv, &picture, NULL);
+    parse_image_options(cv, &picture, KW_material_map, NULL);
     picture.use = USE_PICTURE_INDEX;
     while (accept(cv, KW_texture)) {
         const TextureNode *texture = parse_texture_block(cv);

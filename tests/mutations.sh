@@ -19,10 +19,10 @@ fi
 judge() { # number, program
     local file=p$1.pov theirs ours head='#version 3.7; global_settings { assumed_gamma 1 }'
     printf '%s\n%s\n' "$head" "$2" >"$file"
-    (ulimit -t 2; exec timeout 30 povray "+I$file" +W4 +H3 -D -F +WT1) >"$file.povray" 2>&1 </dev/null
+    (ulimit -t 2; exec timeout -k 5 30 povray "+I$file" +W4 +H3 -D -F +WT1) >"$file.povray" 2>&1 </dev/null
     theirs=$?
     [ $theirs -gt 1 ] && { echo "left out ($theirs): $2" >"$file.left"; return; }
-    timeout 20 "$program" --check "+I$file" +W4 +H3 -D -F >"$file.qipov" 2>&1 </dev/null
+    timeout -k 5 20 "$program" --check "+I$file" +W4 +H3 -D -F >"$file.qipov" 2>&1 </dev/null
     ours=$?
     [ $theirs -eq $ours ] && { rm "$file"*; return; }
     if [ $theirs -eq 0 ]; then
@@ -34,7 +34,7 @@ judge() { # number, program
 export -f judge
 cd "$work" || exit 2
 awk '{ printf "%d%c%s%c", NR, 0, $0, 0 }' lines |
-    xargs -0 -n 2 -P "${JOBS:-12}" bash -c 'judge "$1" "$2"' judge 2>/dev/null
+    xargs -0 -n 2 -P "${JOBS:-$(nproc)}" bash -c 'judge "$1" "$2"' judge 2>/dev/null
 count() { find . -name "$1" | wc -l; }
 find . -name '*.differs' | sort -V | xargs -r cat
 [ -n "${LEFT:-}" ] && find . -name '*.left' | sort -V | xargs -r cat

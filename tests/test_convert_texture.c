@@ -501,7 +501,45 @@ static void all_patterns_are_read(void **state) {
              "sphere { 0, 1 texture { checker texture { } texture { pigment { rgb 1 } } } }"
              "sphere { 0, 1 pigment { object { box { 0, 1 } color rgb x color rgb y } } }"
              "sphere { 0, 1 pigment { image_map { png \"a.png\" gamma 2 once filter all 0.5 "
-             "transmit 3, 0.5 repeat <1,2> offset <1,2> } } }");
+             "transmit all 0.5 repeat <1,2> offset <1,2> } } }");
+}
+
+static void write_bytes(const char *path, const void *bytes, size_t count) {
+    FILE *file = fopen(path, "wb");
+    assert_non_null(file);
+    assert_int_equal(fwrite(bytes, 1, count, file), count);
+    assert_int_equal(fclose(file), 0);
+}
+
+#define IMAGE(text) "sphere { 0, 1 pigment { image_map { " text " } } }"
+
+// Single colours are made clear in palettes only. Before, `filter 1, 0.5` of a picture without one
+// was accepted, and ended the render instead; a TGA's palette was none.
+static void palettes(void **state) {
+    (void)state;
+    // 1 x 1 pixel: two colours and the place 1, blue as itself, and two colours by GIF's codes.
+    static const unsigned char mapped[] = {0, 1, 1, 0, 0, 2, 0,  24, 0, 0, 0, 0, 1,
+                                           0, 1, 0, 8, 0, 0, 10, 20, 9, 9, 9, 1};
+    static const unsigned char plain[] = {0, 0, 2, 0, 0, 0,  0, 0,   0, 0, 0,
+                                          0, 1, 0, 1, 0, 24, 0, 255, 0, 0};
+    static const unsigned char gif[] = {'G', 'I', 'F', '8', '7', 'a', 1, 0,    1, 0, 0x80, 0,
+                                        0,   0,   0,   0,   9,   9,   9, ',',  0, 0, 0,    0,
+                                        1,   0,   1,   0,   0,   2,   2, 0x4c, 1, 0, ';'};
+    write_bytes("build/test/mapped.tga", mapped, sizeof mapped);
+    write_bytes("build/test/plain.tga", plain, sizeof plain);
+    write_bytes("build/test/two.gif", gif, sizeof gif);
+    assert_dies(IMAGE("tga \"build/test/plain.tga\" filter 0, 0.5"),
+                "Keyword 'filter' cannot be used with non color-mapped image");
+    assert_dies(IMAGE("tga \"build/test/plain.tga\" transmit nothing"),
+                "Keyword 'transmit' cannot be used with non color-mapped image");
+    assert_dies(IMAGE("function 2, 2 { x } filter 0, 0.5"), "non color-mapped image");
+    scene_of(IMAGE("tga \"build/test/plain.tga\" filter all 0.5"));
+    assert_dies(IMAGE("tga \"build/test/mapped.tga\" filter 2, 0.5"),
+                "FILTER color register value out of range: the palette has 2 colors");
+    assert_warns(IMAGE("tga \"build/test/mapped.tga\" filter 1, 0.5"), "color 1 of this picture");
+    assert_dies(IMAGE("gif \"build/test/two.gif\" transmit 1.99, 0.5"),
+                "TRANSMIT color register value out of range");
+    assert_silent(IMAGE("gif \"build/test/two.gif\" transmit 1.98, 0.5 filter -1 0.5"));
 }
 
 int main(void) {
@@ -523,6 +561,7 @@ int main(void) {
         cmocka_unit_test(missing_patterns),
         cmocka_unit_test(equal_textures_are_one),
         cmocka_unit_test(all_patterns_are_read),
+        cmocka_unit_test(palettes),
     };
     return cmocka_run_group_tests_name("convert_texture", tests, NULL, NULL);
 }

@@ -199,6 +199,44 @@ static void pairs_on_ribbons(void **state) {
     }
 }
 
+// A sheet with its corner at (x, 0, z), bent by `bend`.
+static PatchDef sheet(Vec3 points[16], double x, double z, double side, double bend) {
+    for (int i = 0; i < 4; i++)
+        for (int j = 0; j < 4; j++)
+            points[4 * i + j] =
+                vec3(x + side * i / 3.0, side * j / 3.0, z + bend * i * (3 - i) * j);
+    return (PatchDef){.degree_u = 3, .degree_v = 3, .points = points, .mask = UINT32_MAX};
+}
+
+// Beside one of 1e30 all others lie in one point of the tree, and all had Newton's steps, not only
+// the pieces of the one that the ray passes: 28,000 for 436.
+static void small_beside_huge(void **state) {
+    (void)state;
+    enum { COUNT = 64 };
+    Vec3 points[COUNT + 1][16];
+    PatchSetOptions options = patchset_options_default();
+    PatchSet *set = patchset_create(&options);
+    for (int k = 0; k <= COUNT; k++) {
+        PatchDef def = k < COUNT ? sheet(points[k], 3.0 * k, 0.0, 1.0, 0.1)
+                                 : sheet(points[k], 0.0, -1.0, 1e30, 0.0);
+        def.id = (uint32_t)k;
+        patchset_add(set, &def);
+    }
+    patchset_commit(set);
+    for (int k = 0; k < COUNT; k++) {
+        Ray ray = {{3.0 * k + 0.4, 0.3, 5.0}, {0.01, 0.02, -1.0}};
+        PatchStats stats = {0};
+        PatchHit hit;
+        assert_true(patchset_intersect(set, &ray, 0.0, INFINITY, UINT32_MAX, &stats, &hit));
+        assert_int_equal(hit.id, k);
+        PatchDef def = sheet(points[k], 3.0 * k, 0.0, 1.0, 0.1);
+        assert_true(ray_oracle_residual(&def, &ray, hit.t, hit.u, hit.v) <= hit.bound);
+        if (stats.newton > 1000)
+            fail_msg("%d Newton steps", (int)stats.newton);
+    }
+    patchset_destroy(set);
+}
+
 // A quarter of a cap: the side u = 0 is its top, where it is level; `both` makes v = 0 the top too.
 static void cap(Bezier *s, bool both) {
     static const double c[4] = {1.0, 1.0, 0.55, 0.0}, drop[4] = {0.0, 0.0, 0.4, 1.0};
@@ -231,9 +269,8 @@ static void flat_rays_at_poles(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(rays_at_ribbons),
-        cmocka_unit_test(prepared_ribbons),
-        cmocka_unit_test(pairs_on_ribbons),
+        cmocka_unit_test(rays_at_ribbons),    cmocka_unit_test(prepared_ribbons),
+        cmocka_unit_test(pairs_on_ribbons),   cmocka_unit_test(small_beside_huge),
         cmocka_unit_test(flat_rays_at_poles),
     };
     return cmocka_run_group_tests_name("qi_cases", tests, NULL, NULL);

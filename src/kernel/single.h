@@ -124,6 +124,9 @@ static inline bool search_piece(Walk *walk, const Block *block, const LeafLanes 
     if (!(walk->accel->pieces[number].mask & walk->query->mask))
         return true;
     const Piece *piece = piece_begin(walk, number);
+    // Beside patches 1e10 times their size others are one point of the tree.
+    if (block->coarse >> lane & 1 && patch_ray_misses(&walk->ray))
+        return true;
     if (lanes->single >> lane & 1) {
         double u, v;
         guess(piece, lanes, lane, &u, &v);

@@ -404,7 +404,7 @@ void frame_to_lane(const PieceFrame *frame, const Bezier *part, const Tree *tree
     else
         taylor_poly(part, frame, piece);
     const double w = 0x1p-24;
-    double lengths[3], inflate[3];
+    double lengths[3], inflate[3], least = 1.0;
     Vec3 place = vec_sub(tree->center, patch_center);
     for (int k = 0; k < 3; k++) {
         const double *row = frame->row[k];
@@ -422,9 +422,11 @@ void frame_to_lane(const PieceFrame *frame, const Bezier *part, const Tree *tree
         block->shift[k][lane] = (float)(shift * grow);
         lengths[k] = grow > 0.0 ? length * grow : 0.0;
         inflate[k] = grow;
+        least = grow < least ? grow : least;
         for (int i = 0; i < 16; i++)
             piece->poly[i / 4][i % 4][k] *= (float)grow;
     }
+    block->coarse |= least < 0.5 ? 1u << lane : 0u;
     bool usable = frame->regular && inflate[0] > 0.0 && inflate[1] > 0.0 && inflate[2] > 0.0;
     double sx = usable ? frame->steep[0] * inflate[2] / inflate[0] : INFINITY;
     double sy = usable ? frame->steep[1] * inflate[2] / inflate[1] : INFINITY;

@@ -399,6 +399,7 @@ static void make_patch(const PatchDef *def, double *local, AccelPatch *out) {
     for (int i = 0; i < rows; i++) {
         for (int j = 0; j < columns; j++) {
             Vec3 q = vec_sub(def->points[i * columns + j], out->center);
+            out->radius = larger(out->radius, vec_length(q));
             for (int axis = 0; axis < 3; axis++) {
                 int at = out->cubic ? (4 * j + i) * 3 + axis : (axis * rows + i) * columns + j;
                 local[at] = vec_get(q, axis);

@@ -27,6 +27,7 @@ typedef struct {
     const double *local; // points less center; cubic: [column][row][3], else [3][row][column]
     bool cubic;          // bi-degree (3,3)
     double rounding;     // of a coordinate of S; of its derivatives: times twice the degree
+    double radius;       // of a ball that holds all points
     double tolerance;    // scene units
 } AccelPatch;
 
@@ -91,7 +92,8 @@ typedef struct {
     float shift[3][BLOCK_LANES], steep[3][BLOCK_LANES];
     float center[4];       // tree space; the fourth is 0
     uint32_t first, count; // lane i is pieces[first + i]
-    uint32_t unused[2];
+    uint32_t coarse;       // bit i: rounding makes the box of lane i twice as large as the piece
+    uint32_t unused;
 } Block;
 _Static_assert(sizeof(Block) == 512, "eight lines of cache");
 

@@ -30,6 +30,15 @@ static inline void patch_ray_init(PatchRay *out, const AccelPatch *patch, const 
     out->error = 24.0 * 0x1p-53 * size + 4.0 * patch->rounding;
 }
 
+// Is the whole patch farther from the ray than the tolerance or rounding may make up for? So that
+// it takes nothing away from what is found. FRAME_LEAST is for lengths whose squares underflow.
+static inline bool patch_ray_misses(const PatchRay *ray) {
+    const AccelPatch *patch = ray->patch;
+    double reach =
+        patch->radius * (1.0 + 0x1p-48) + patch->tolerance + 4.0 * ray->error + FRAME_LEAST;
+    return vec_dot(ray->org, ray->org) > reach * reach;
+}
+
 typedef struct {
     PatchHit hit;
     double error_u, error_v; // a root of the same piece farther away in u or v is another one

@@ -141,6 +141,8 @@ const char *limit_hint(Converter *cv, Limit limit); // "(--limit NAME=... sets a
 // of a tree): dies where the time or the memory of the reading is over. work: about how many
 // tokens' worth it is.
 void check_limits(Converter *cv, uint64_t work);
+// Dies when the scene would have more memory than its limit with so many bytes more.
+void check_room(Converter *cv, uint64_t bytes);
 // What is built from named parts (objects, maps of pigments, ...) may be nested without a brace in
 // the text being nested. Whoever walks it later calls itself for each level.
 enum { MAX_DEPTH = SCENE_MAX_DEPTH };

@@ -62,6 +62,7 @@ static HeightMap *make_map(Converter *cv, int width, int depth) {
     map->width = width;
     map->depth = depth;
     map->count = (uint32_t)width * (uint32_t)depth;
+    check_room(cv, (uint64_t)map->count * sizeof *map->heights);
     map->heights = ARENA_ARRAY(cv->arena, double, map->count);
     return map;
 }

@@ -50,6 +50,7 @@ void parse_image_function(Converter *cv, Picture *picture, int smallest) {
     picture->height = height;
     picture->channels = channels;
     picture->value_count = (uint32_t)(width * height * channels);
+    check_room(cv, (uint64_t)picture->value_count * sizeof *picture->values);
     picture->values = ARENA_ARRAY(cv->arena, double, picture->value_count);
     double *out = picture->values;
     for (int y = 0; y < height; y++)

@@ -66,6 +66,15 @@ static Loc last_loc(Converter *cv) {
     return token_loc(cv, l->last ? l->last : cv->frame->tokens);
 }
 
+void check_room(Converter *cv, uint64_t bytes) {
+    Language *l = cv->language;
+    if (arena_bytes(cv->arena) + l->probe_bytes + bytes <= l->max_bytes)
+        return;
+    Loc loc = last_loc(cv);
+    die_at(&loc, "The scene needs too much memory: more than %llu MB while it is read %s",
+           (unsigned long long)limit_of(cv, LIMIT_MEGABYTES), limit_hint(cv, LIMIT_MEGABYTES));
+}
+
 void check_limits(Converter *cv, uint64_t work) {
     Language *l = cv->language;
     if (l->work > work) {
@@ -73,11 +82,7 @@ void check_limits(Converter *cv, uint64_t work) {
         return;
     }
     l->work = 1024; // until the next look at the clock
-    if (arena_bytes(cv->arena) + l->probe_bytes > l->max_bytes) {
-        Loc loc = last_loc(cv);
-        die_at(&loc, "The scene needs too much memory: more than %llu MB while it is read %s",
-               (unsigned long long)limit_of(cv, LIMIT_MEGABYTES), limit_hint(cv, LIMIT_MEGABYTES));
-    }
+    check_room(cv, 0);
     if (now_seconds() - l->started >= limit_of(cv, LIMIT_SECONDS)) {
         Loc loc = last_loc(cv);
         die_at(&loc, "The scene takes too long: it has been read for %llu s %s",

@@ -23,6 +23,7 @@
 #include <stdio.h>
 #include <string.h>
 #include <strings.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -469,6 +470,25 @@ static void test_limits(void **state) {
     }
 }
 
+// What asks for much at once is refused before it has it. Before, 2 GB were filled first.
+static void test_room(void **state) {
+    (void)state;
+    char path[256];
+    snprintf(path, sizeof path, "%s/large.pov", folder);
+    static const char text[] = "height_field { function 16000, 16000 { x } }";
+    write_program(path, text, strlen(text));
+    RenderOptions options = small_options(path);
+    options.limits[LIMIT_MEGABYTES] = 64;
+    struct rusage before, after;
+    assert_int_equal(getrusage(RUSAGE_SELF, &before), 0);
+    char *message = run_options(options);
+    assert_int_equal(getrusage(RUSAGE_SELF, &after), 0);
+    assert_non_null(message);
+    assert_non_null(strstr(message, "more than 64 MB while it is read"));
+    free(message);
+    assert_true(after.ru_maxrss - before.ru_maxrss < 128 * 1024); // kilobytes
+}
+
 // However far the limit is moved, the stack does not overflow.
 static void test_stack(void **state) {
     (void)state;
@@ -592,8 +612,9 @@ int main(void) {
         cmocka_unit_test(test_chain),         cmocka_unit_test(test_options),
         cmocka_unit_test(test_files),         cmocka_unit_test(test_nesting),
         cmocka_unit_test(test_endless),       cmocka_unit_test(test_built_up),
-        cmocka_unit_test(test_limits),        cmocka_unit_test(test_stack),
-        cmocka_unit_test(test_mutations),     cmocka_unit_test(test_interrupt),
+        cmocka_unit_test(test_limits),        cmocka_unit_test(test_room),
+        cmocka_unit_test(test_stack),         cmocka_unit_test(test_mutations),
+        cmocka_unit_test(test_interrupt),
     };
     return cmocka_run_group_tests_name("language", tests, set_up, NULL);
 }

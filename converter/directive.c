@@ -74,13 +74,18 @@ static void run_declare(Converter *cv, bool local) {
     Place place = target_place(cv, name, local);
     if (place.value->type == VALUE_MACRO)
         die_at(&loc, "'%s' is a macro and cannot be declared; #undef it first", name->text);
+    const ValueType before = place.value->type;
     expect(cv, '=', "#declare");
     Value value;
     if (!parse_rvalue(cv, RVALUE_DECLARE, &value, NULL)) {
         restore_directives(cv, false);
         die_expected(cv, "a value for #declare");
     }
-    place_assign(cv, &place, &value, &loc);
+    const Value *now = place.value; // what the value declared may be here already
+    if (now->type == VALUE_FUNCTION && before != VALUE_FUNCTION)
+        warn_at(&loc, "'%s' stays the function that was declared amid its value", name->text);
+    else
+        place_assign(cv, &place, &value, &loc);
     if (deprecation.given) {
         place.symbol->deprecated = true;
         place.symbol->deprecated_once = deprecation.once;

@@ -209,7 +209,7 @@ static double select_call(Converter *cv) {
     }
     v[3] = accept(cv, ',') ? parse_float(cv) : v[2];
     expect(cv, ')', "select");
-    return v[0] < 0 ? v[1] : v[0] > 0 ? v[3] : v[2];
+    return v[0] < 0 ? v[1] : v[0] == 0 ? v[2] : v[3]; // P for what is no number
 }
 
 // ---- floats of strings, arrays, names -----------------------------------------------------------

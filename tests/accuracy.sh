@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: MIT
 # Is --accuracy pixel what --accuracy exact is, to the eye? Renders all scenes in reach (ours, those of
 # povray-examples with patches, and the corpus where it is there) with both, and counts pixels that
 # are off by more than one step of 8 bits; prints a table with what each took, in turn, user seconds,
@@ -47,13 +48,7 @@ for scene; do
         "$(median "$folder/draft.txt") ${fine:-0} ${pixel:-0} ${draft:-0}" |
         awk '{printf "| %s | %s | %s | %s | %s | %.2f | %s | %s | %s |\n", $1, $2, $3, $4, $5, $4 / ($2 > 0 ? $2 : 1), $6, $7, $8}')"
 done
-[ -n "$into_readme" ] && awk -v file="$table" '
-    $0 == "<!-- end of accuracy -->" { inside = 0 }
-    !inside { print }
-    $0 == "<!-- accuracy -->" {
-        inside = 1
-        print ""
-        while ((getline line <file) > 0) print line
-        print ""
-    }' README.md >"$folder/README.md" && cp "$folder/README.md" README.md
+if [ -n "$into_readme" ]; then
+    tests/readme_table.sh accuracy "$table"
+fi
 exit $status

@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: MIT
 # Writes the tables of speed into README.md, each between its two marks (<!-- NAME --> and
 # <!-- end of NAME -->). Arguments: rounds (an odd number, 5), then the tables, all unless named:
 # programs methods picture lattices threads.
@@ -43,15 +44,5 @@ for table in "$@"; do
         build/qibench speed "$table" --rounds "$rounds" >"$folder/table"
     fi
     cat "$folder/table"
-    grep -q "^<!-- $table -->" README.md || { echo "README.md has no place for $table" >&2; exit 1; }
-    awk -v name="$table" -v file="$folder/table" '
-        $0 == "<!-- end of " name " -->" { inside = 0 }
-        !inside { print }
-        $0 == "<!-- " name " -->" {
-            inside = 1
-            print ""
-            while ((getline line <file) > 0) print line
-            print ""
-        }' README.md >"$folder/README.md"
-    cp "$folder/README.md" README.md
+    tests/readme_table.sh "$table" "$folder/table"
 done

@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: MIT
 # Writes the accuracy study into README.md, between <!-- study --> and <!-- end of study -->. Argument:
 # rounds (an odd number, 1). The scenes that are there are measured; the others are named.
 set -eu
@@ -15,13 +16,4 @@ done
 # shellcheck disable=SC2086
 build/qibench sweep --study --rounds "${1:-1}" $found >"$folder/study"
 cat "$folder/study"
-awk -v file="$folder/study" '
-    $0 == "<!-- end of study -->" { inside = 0 }
-    !inside { print }
-    $0 == "<!-- study -->" {
-        inside = 1
-        print ""
-        while ((getline line <file) > 0) print line
-        print ""
-    }' README.md >"$folder/README.md"
-cp "$folder/README.md" README.md
+tests/readme_table.sh study "$folder/study"

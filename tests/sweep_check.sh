@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: MIT
 # Judges a sweep.csv of qibench: errors fall as tolerances do, for every method, and no point of qi is
 # farther off than its tolerance and the rounding of its hits allow. Noise: errors below 1e-9
 # diameters are rounding; of the picture, a tenth or a thousandth of a step. Newton's method without bounds

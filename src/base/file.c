@@ -99,13 +99,17 @@ static void *must(void *p) {
     return p;
 }
 
+const char *file_name(const char *path) {
+    const char *slash = strrchr(path, '/');
+    return slash ? slash + 1 : path;
+}
+
 OutputFile *file_begin(const char *path) {
     install_cleanup();
     struct stat st;
     if (stat(path, &st) == 0 && S_ISDIR(st.st_mode))
         die("cannot write '%s': is a directory", path);
-    const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path;
-    const char *dot = strrchr(name, '.');
+    const char *name = file_name(path), *dot = strrchr(name, '.');
     if (!dot || dot == name)
         dot = path + strlen(path);
     OutputFile *out = must(calloc(1, sizeof *out));

@@ -12,7 +12,8 @@
 // The whole file, NUL-terminated (the NUL is not counted in *size). On failure NULL, and *why is a
 // static text ("no such file", "is a directory", ...). size and why may be NULL.
 char *file_read(Arena *arena, const char *path, size_t *size, const char **why);
-bool file_exists(const char *path); // a readable thing that is no directory
+bool file_exists(const char *path);      // a readable thing that is no directory
+const char *file_name(const char *path); // the part behind the last slash, within path
 
 // An output being written beside its final place. file_begin dies if the folder cannot be written.
 // file_commit flushes, checks every earlier write, renames; dies (disk full, ...) and leaves no

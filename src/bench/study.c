@@ -4,16 +4,12 @@
 #include "bench/study.h"
 
 #include "base/arena.h"
+#include "base/file.h"
 
 #include <string.h>
 
 // The errors that a picture may have to be good enough: of a pixel, of a step of 8 bits.
 static const double SMALL_PIXELS = 0.1, SMALL_STEPS = 1.0;
-
-static const char *base_name(const char *path) {
-    const char *slash = strrchr(path, '/');
-    return slash ? slash + 1 : path;
-}
 
 static bool is_facets(const SweepResult *r) {
     return !r->point.povray && r->point.method == METHOD_FACETS;
@@ -76,7 +72,7 @@ void study_print(const Sweep *s, FILE *out) {
             "| triangles | farthest off, diameters | pixels | normal, degrees | RMS | picture "
             "RMS, steps | pixels off | edge rays lost | pin-holes | POV-Ray | qi, no farther off "
             "|\n|---|---|---|---|---|---|---|---|---|---|---|\n",
-            base_name(s->scene), s->patches, s->edges, s->width, s->height);
+            file_name(s->scene), s->patches, s->edges, s->width, s->height);
     for (size_t i = 0; i < s->count; i++) {
         const SweepResult *r = &s->results[i];
         if (!is_facets(r))
@@ -139,7 +135,7 @@ void study_print_all(const Sweep *const *sweeps, size_t count, FILE *out) {
         "qi | picture RMS below %g step from | POV-Ray | qi |\n|---|---|---|---|---|---|---|---|\n",
         SMALL_PIXELS, SMALL_STEPS);
     for (size_t i = 0; i < count; i++) {
-        fprintf(out, "| %s | %u |", base_name(sweeps[i]->scene), sweeps[i]->patches);
+        fprintf(out, "| %s | %u |", file_name(sweeps[i]->scene), sweeps[i]->patches);
         put_good(sweeps[i], false, out);
         put_good(sweeps[i], true, out);
         putc('\n', out);

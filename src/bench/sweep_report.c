@@ -13,11 +13,6 @@
 #include <string.h>
 #include <sys/utsname.h>
 
-static const char *base_name(const char *path) {
-    const char *slash = strrchr(path, '/');
-    return slash ? slash + 1 : path;
-}
-
 void sweep_print(const Sweep *s, FILE *out) {
     Arena *arena = arena_create();
     fprintf(out,
@@ -25,7 +20,7 @@ void sweep_print(const Sweep *s, FILE *out) {
             "| method | picture, s | least to most | memory, MB | Mray/s | prepare, ms | position, "
             "diameters | position, pixels | normal, degrees | wrong hits | picture RMS, steps | "
             "pixels off | front |\n|---|---|---|---|---|---|---|---|---|---|---|---|---|\n",
-            base_name(s->scene), s->patches, s->width, s->height, s->rounds);
+            file_name(s->scene), s->patches, s->width, s->height, s->rounds);
     for (size_t i = 0; i < s->count; i++) {
         const SweepResult *r = &s->results[i];
         fprintf(out, "| %s |", sweep_point_name(&r->point, arena));
@@ -108,7 +103,7 @@ static void write_csv(const Sweep *const *sweeps, size_t count, const char *path
     for (size_t i = 0; i < count; i++)
         for (size_t n = 0; n < sweeps[i]->count; n++) {
             const SweepResult *r = &sweeps[i]->results[n];
-            fprintf(out, "%s,%s,", base_name(sweeps[i]->scene), method_of(&r->point));
+            fprintf(out, "%s,%s,", file_name(sweeps[i]->scene), method_of(&r->point));
             if (is_qi(&r->point))
                 fputs(patch_prepare_name(r->point.prepare), out);
             if (r->point.steps < 0)
@@ -165,7 +160,7 @@ static void write_json(const Sweep *const *sweeps, size_t count, const char *com
     json_object_set_new(root, "command", json_string(command));
     for (size_t i = 0; i < count; i++) {
         json_t *scene = json_object(), *results = json_array();
-        json_object_set_new(scene, "scene", json_string(base_name(sweeps[i]->scene)));
+        json_object_set_new(scene, "scene", json_string(file_name(sweeps[i]->scene)));
         json_object_set_new(scene, "patches", json_integer(sweeps[i]->patches));
         json_object_set_new(scene, "width", json_integer(sweeps[i]->width));
         json_object_set_new(scene, "height", json_integer(sweeps[i]->height));

@@ -33,7 +33,7 @@ static void put_row(FILE *out, const IndexRow *row) {
         fputs("\">", out);
         arena_destroy(scratch);
     }
-    const char *slash = strrchr(row->title, '/'), *name = slash ? slash + 1 : row->title;
+    const char *name = file_name(row->title);
     if (row->failed) {
         html_text(out, name);
         fputs("</th><td class=\"FAILURE\">not compared</td><td colspan=\"6\" class=\"said\">"

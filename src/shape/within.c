@@ -84,13 +84,14 @@ static Range solutions(double k, double l, double rest) {
     return (Range){middle - reach, middle + reach};
 }
 
-static double finite_size(const Range range[3]) {
+// The largest number among the ends that are finite.
+static double finite_size(const Range *range, int count) {
     double size = 0.0;
-    for (int axis = 0; axis < 3; axis++) {
-        if (isfinite(range[axis].low))
-            size = fmax(size, fabs(range[axis].low));
-        if (isfinite(range[axis].high))
-            size = fmax(size, fabs(range[axis].high));
+    for (int i = 0; i < count; i++) {
+        if (isfinite(range[i].low))
+            size = fmax(size, fabs(range[i].low));
+        if (isfinite(range[i].high))
+            size = fmax(size, fabs(range[i].high));
     }
     return size;
 }
@@ -110,8 +111,7 @@ static Box quadric_within(const QuadricShape *q, Box around) {
             Range found = solutions(vec_get(q->square, axis), vec_get(q->linear, axis), rest);
             if (isnan(found.low) || isnan(found.high))
                 return around;
-            double by = WIDER * finite_size((Range[3]){found, range[0], range[1]}) +
-                        WIDER * finite_size((Range[3]){range[2], range[2], range[2]});
+            double by = WIDER * fmax(finite_size(range, 3), finite_size(&found, 1));
             range[axis] = common(range[axis], (Range){found.low - by, found.high + by});
         }
     }

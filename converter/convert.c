@@ -3,6 +3,7 @@
 // all statements, hands over to emit.c.
 #include "converter/convert.h"
 
+#include "base/file.h"
 #include "converter/language.h"
 #include "converter/probing.h"
 
@@ -68,9 +69,8 @@ static void declare_initial(Converter *cv) {
     declare_float(cv, "initial_clock", f->initial_clock);
     declare_float(cv, "final_clock", f->final_clock);
     declare_float(cv, "clock_delta", f->clock_delta);
-    const char *slash = strrchr(o->input, '/');
     declare_value(cv, "input_file_name",
-                  (Value){.type = VALUE_STRING, .string = slash ? slash + 1 : o->input});
+                  (Value){.type = VALUE_STRING, .string = file_name(o->input)});
 }
 
 static Converter *start(const RenderOptions *options, Arena *arena) {

@@ -2,6 +2,7 @@
 // #fopen, #read, #write, #fclose (facts: sdl 3.5). Reading a scene must not write files: what is
 // written stays in memory and can be read or included again in the same run. Below the folders of
 // --allow-write it becomes a file when it is closed; elsewhere there is a warning instead.
+#include "base/file.h"
 #include "converter/language.h"
 
 #include <errno.h>
@@ -49,11 +50,8 @@ static void append_text(Converter *cv, UserFile *f, const char *text) {
 
 // Does the file's folder, with all links followed, lie in one that the user has opened?
 static bool may_write(Converter *cv, const char *name) {
-    const char *slash = strrchr(name, '/');
-    const char *folder =
-        slash ? arena_printf(cv->arena, "%.*s", (int)(slash - name + 1), name) : ".";
     char where[PATH_MAX], allowed[PATH_MAX];
-    if (!realpath(folder, where))
+    if (!realpath(file_folder(cv->arena, name), where))
         return false;
     for (size_t i = 0; i < cv->options->write_folder_count; i++) {
         if (!realpath(cv->options->write_folders[i], allowed))

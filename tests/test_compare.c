@@ -347,9 +347,9 @@ static void one_scene_both_renderers(void **state) {
 
     // The page names the commands, word for word; ours alone has the word with two dashes.
     const char *page = file_read(place->arena, in(place, "out/index.html"), NULL, NULL);
-    assert_non_null(strstr(page, "<pre>povray -h48 +W64 +A0.3 +L. +Iball.pov +Oout/povray.png "
+    assert_non_null(strstr(page, "<pre>povray -h48 +W64 +A0.3 +L./ +Iball.pov +Oout/povray.png "
                                  "+W64 +H48 -D -P</pre>"));
-    assert_non_null(strstr(page, "/qirender -h48 +W64 +A0.3 +L. --method facets +Iball.pov "
+    assert_non_null(strstr(page, "/qirender -h48 +W64 +A0.3 +L./ --method facets +Iball.pov "
                                  "+Oout/qirender.png +W64 +H48 -D -P</pre>"));
     assert_non_null(strstr(page, "User seconds"));
 

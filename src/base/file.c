@@ -104,6 +104,11 @@ const char *file_name(const char *path) {
     return slash ? slash + 1 : path;
 }
 
+const char *file_folder(Arena *arena, const char *path) {
+    int length = (int)(file_name(path) - path);
+    return length ? arena_printf(arena, "%.*s", length, path) : "./";
+}
+
 OutputFile *file_begin(const char *path) {
     install_cleanup();
     struct stat st;

@@ -14,6 +14,8 @@
 char *file_read(Arena *arena, const char *path, size_t *size, const char **why);
 bool file_exists(const char *path);      // a readable thing that is no directory
 const char *file_name(const char *path); // the part behind the last slash, within path
+// The part up to and with the last slash; "./" where there is none.
+const char *file_folder(Arena *arena, const char *path);
 
 // An output being written beside its final place. file_begin dies if the folder cannot be written.
 // file_commit flushes, checks every earlier write, renames; dies (disk full, ...) and leaves no

@@ -236,9 +236,8 @@ static void put_table(FILE *out, const Sweep *s) {
 }
 
 static void put_scene(FILE *out, const Sweep *s, const char *folder) {
-    const char *slash = strrchr(s->scene, '/');
     fputs("<h2>", out);
-    html_text(out, slash ? slash + 1 : s->scene);
+    html_text(out, file_name(s->scene));
     fprintf(out,
             "</h2>\n<p class=\"soft\">%u patches, %zu shared edges, %d &#215; %d pixels, one "
             "pinned thread, median of %d round%s in turn. The truth is qi at 1e-14.</p>\n",

@@ -78,10 +78,9 @@ const char *sweep_povray_begin(const SweepOptions *o, SweepCopy *copy, Arena *ar
     strcpy(copy->folder, "/tmp/qibench-XXXXXX");
     if (!mkdtemp(copy->folder))
         return "no temporary folder can be made";
-    const char *slash = strrchr(o->scene, '/');
-    copy->scene = slash ? slash + 1 : o->scene;
-    const char *from = slash ? arena_printf(arena, "%.*s", (int)(slash - o->scene), o->scene) : ".";
-    char *script = arena_printf(arena, "cp -rL %s/. %s/scene", quote(arena, from), copy->folder);
+    copy->scene = file_name(o->scene);
+    char *script = arena_printf(arena, "cp -rL %s. %s/scene",
+                                quote(arena, file_folder(arena, o->scene)), copy->folder);
     for (size_t i = 0; i < o->library_path_count; i++)
         script = arena_printf(arena, "%s && cp -L %s/*.inc %s/scene 2>/dev/null; true", script,
                               quote(arena, o->library_paths[i]), copy->folder);

@@ -45,15 +45,12 @@ typedef struct {
 
 static void add_words(const Job *job, const Task *task, Command *command) {
     const RenderOptions *o = job->options;
-    const char *slash = strrchr(job->scene, '/');
     run_add(command, task->povray ? "povray" : run_find_qirender(job->arena));
     // Both renderers get the same words; qirender those with two dashes as well.
     for (size_t k = 0; k < o->shared_count; k++)
         run_add(command, o->shared[k]);
     // POV-Ray looks for includes in the working directory, not beside the scene.
-    run_add(command,
-            slash ? arena_printf(job->arena, "+L%.*s", (int)(slash - job->scene) + 1, job->scene)
-                  : "+L.");
+    run_add(command, arena_printf(job->arena, "+L%s", file_folder(job->arena, job->scene)));
     for (size_t k = 0; !task->povray && k < o->own_count; k++)
         run_add(command, o->own[k]);
     for (int k = 0; k < 4 && task->words[k]; k++)
@@ -328,13 +325,10 @@ static Image *thumbnail(Arena *arena, const Image *image) {
 // The name of a scene's folder: its own without what comes before and after, and a number where two
 // scenes share it.
 static const char *scene_name(const RenderOptions *o, size_t index, Arena *arena) {
-    const char *path = o->scenes[index], *slash = strrchr(path, '/'),
-               *name = slash ? slash + 1 : path;
-    const char *dot = strrchr(name, '.');
+    const char *name = file_name(o->scenes[index]), *dot = strrchr(name, '.');
     char *stem = arena_printf(arena, "%.*s", (int)(dot - name), name);
     for (size_t i = 0; i < o->scene_count; i++) {
-        const char *other = o->scenes[i], *cut = strrchr(other, '/');
-        if (i != index && strcmp(cut ? cut + 1 : other, name) == 0)
+        if (i != index && strcmp(file_name(o->scenes[i]), name) == 0)
             return arena_printf(arena, "%zu-%s", index + 1, stem);
     }
     return stem;

@@ -54,9 +54,7 @@ static void check_output(const char *path, Arena *arena) {
         return;
     if (stat(path, &st) == 0 && S_ISDIR(st.st_mode))
         die("cannot write '%s': is a directory (a folder's name ends in '/')", path);
-    const char *slash = strrchr(path, '/');
-    const char *folder = slash ? arena_printf(arena, "%.*s", (int)(slash - path + 1), path) : ".";
-    if (access(folder, W_OK) != 0)
+    if (access(file_folder(arena, path), W_OK) != 0)
         die("cannot write '%s': %s", path, strerror(errno));
 }
 

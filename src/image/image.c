@@ -26,8 +26,7 @@ static const struct {
 const char *image_extension(ImageFormat format) { return formats[format].extension; }
 
 bool image_format_of(const char *path, ImageFormat *format) {
-    const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path;
-    const char *dot = strrchr(name, '.');
+    const char *dot = strrchr(file_name(path), '.');
     if (!dot)
         return false;
     for (size_t i = 0; i < sizeof formats / sizeof *formats; i++) {

@@ -8,6 +8,7 @@
 #include "base/diag.h"
 #include "base/file.h"
 #include "model/field_path.h"
+#include "model/file_path.h"
 #include "model/scene_check.h"
 #include "model/scene_fields.h"
 #include "model/scene_format.h"
@@ -292,12 +293,11 @@ static void read_buffer(Reader *r, const FieldPath *path, json_t *json, Mapping 
     if (!uri || !length)
         path_die(r->file, path, "'%s' is missing", uri ? "byteLength" : "uri");
     read_expect(r, &uri_path, uri, JSON_STRING);
-    const char *name = json_string_value(uri), *slash = strrchr(r->file, '/'), *why;
+    const char *name = json_string_value(uri), *why;
     if (leaves_folder(name))
         path_die(r->file, &uri_path, "'%s' is not in the folder of the scene file", name);
     uint64_t size = read_whole(r, &length_path, length, 0, INT64_MAX);
-    char *file =
-        arena_printf(r->arena, "%.*s%s", slash ? (int)(slash + 1 - r->file) : 0, r->file, name);
+    char *file = path_beside_file(r->arena, name, r->file);
     if (!binary_map(file, mapping, &why))
         path_die(r->file, &uri_path, "cannot read '%s': %s", file, why);
     if (mapping->size != size)

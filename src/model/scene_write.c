@@ -489,8 +489,8 @@ static void write_files(void *context) {
     if (!to_stdout)
         w->file = file_begin(w->path);
     if (!to_stdout && wants_binary(w->scene, w->options)) {
-        char *side_path = binary_path(w->scratch, w->path), *slash = strrchr(side_path, '/');
-        uri = quoted(w->scratch, w->path, slash ? slash + 1 : side_path);
+        char *side_path = binary_path(w->scratch, w->path);
+        uri = quoted(w->scratch, w->path, file_name(side_path));
         w->side = file_begin(side_path);
         w->binary = file_stream(w->side);
     }

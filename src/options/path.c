@@ -27,8 +27,7 @@ static size_t stem_length(const char *name) {
     for (size_t i = 0; i < 2; i++)
         if (ends_in(name, extensions[i]))
             return strlen(name) - strlen(extensions[i]);
-    const char *slash = strrchr(name, '/'), *base = slash ? slash + 1 : name;
-    const char *dot = strrchr(base, '.');
+    const char *base = file_name(name), *dot = strrchr(base, '.');
     return dot && dot != base ? (size_t)(dot - name) : strlen(name);
 }
 
@@ -58,8 +57,7 @@ const char *options_output_path(const RenderOptions *options, Arena *arena, cons
         snprintf(number, sizeof number, "%0*d", options->frame.digits, options->frame.number);
     bool folder = output && *output && output[strlen(output) - 1] == '/';
     if (!output || folder) {
-        const char *slash = strrchr(input, '/');
-        const char *name = folder && slash ? slash + 1 : input;
+        const char *name = folder ? file_name(input) : input;
         return arena_printf(arena, "%s%.*s%s.%s", folder ? output : "", (int)stem_length(name),
                             name, number, extension);
     }

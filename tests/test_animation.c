@@ -9,6 +9,7 @@
 
 #include <cmocka.h>
 
+#include "arena_state.h"
 #include "base/diag.h"
 #include "image/image.h"
 #include "options/animation.h"
@@ -274,22 +275,10 @@ static void clockless(void **state) {
     }
 }
 
-static int create(void **state) {
-    *state = arena_create();
-    return 0;
-}
-
-static int destroy(void **state) {
-    arena_destroy(*state);
-    return 0;
-}
-
-#define TEST(function) cmocka_unit_test_setup_teardown(function, create, destroy)
-
 int main(void) {
     const struct CMUnitTest tests[] = {
-        TEST(frames),          TEST(single_pictures), TEST(names),
-        TEST(equal_to_povray), TEST(allobjects),      TEST(clockless),
+        ARENA_TEST(frames),          ARENA_TEST(single_pictures), ARENA_TEST(names),
+        ARENA_TEST(equal_to_povray), ARENA_TEST(allobjects),      ARENA_TEST(clockless),
     };
     return cmocka_run_group_tests_name("animation", tests, NULL, NULL);
 }

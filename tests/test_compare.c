@@ -9,6 +9,7 @@
 
 #include <cmocka.h>
 
+#include "own_folder.h"
 #include "base/file.h"
 #include "image/image.h"
 #include "reference.h"
@@ -25,35 +26,8 @@
 
 #define PROGRAM "build/test/qicompare"
 
-typedef struct {
-    Arena *arena;
-    char folder[64], root[512];
-} Folder;
-
-static int create(void **state) {
-    Folder *place = calloc(1, sizeof *place);
-    place->arena = arena_create();
-    strcpy(place->folder, "/tmp/qipov-compare-XXXXXX");
-    *state = place;
-    return mkdtemp(place->folder) && getcwd(place->root, sizeof place->root) ? 0 : 1;
-}
-
-static int destroy(void **state) {
-    Folder *place = *state;
-    char command[128];
-    snprintf(command, sizeof command, "rm -rf %s", place->folder);
-    int status = system(command);
-    arena_destroy(place->arena);
-    free(place);
-    return status;
-}
-
-static const char *in(const Folder *place, const char *name) {
-    return arena_printf(place->arena, "%s/%s", place->folder, name);
-}
-
 // Runs qicompare in the folder; what it prints (both streams) goes to *said.
-static int compare(const Folder *place, const char *words, const char **said) {
+static int compare(const OwnFolder *place, const char *words, const char **said) {
     if (access(PROGRAM, X_OK) != 0) {
         print_message("skipped: " PROGRAM " is not built\n");
         skip();
@@ -62,7 +36,7 @@ static int compare(const Folder *place, const char *words, const char **said) {
         place->arena, "cd %s && ASAN_OPTIONS=detect_leaks=0 %s/" PROGRAM " %s >said.txt 2>&1",
         place->folder, place->root, words);
     int status = system(command);
-    *said = file_read(place->arena, in(place, "said.txt"), NULL, NULL);
+    *said = file_read(place->arena, own_path(place, "said.txt"), NULL, NULL);
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
@@ -77,21 +51,21 @@ static Image *plain(Arena *arena, int width, int height, float value) {
 }
 
 // one.png is grey; in two.png one pixel of 100 is off by 51 steps (0.2) and one by a single step.
-static void write_pictures(const Folder *place) {
+static void write_pictures(const OwnFolder *place) {
     const ImageWriteOptions o = image_write_options_default();
     Image *image = plain(place->arena, 10, 10, 102.0f / 255.0f);
-    image_write(in(place, "one.png"), image, &o);
+    image_write(own_path(place, "one.png"), image, &o);
     image->pixels[3 * 34 + 2] = 153.0f / 255.0f;
     image->pixels[0] = 103.0f / 255.0f;
-    image_write(in(place, "two.png"), image, &o);
-    image_write(in(place, "small.png"), plain(place->arena, 9, 10, 0.4f), &o);
+    image_write(own_path(place, "two.png"), image, &o);
+    image_write(own_path(place, "small.png"), plain(place->arena, 9, 10, 0.4f), &o);
 }
 
 // ---- tests
 // ----------------------------------------------------------------------------------------
 
 static void exit_status(void **state) {
-    Folder *place = *state;
+    OwnFolder *place = *state;
     write_pictures(place);
     const struct {
         const char *words;
@@ -126,7 +100,7 @@ static void exit_status(void **state) {
 }
 
 static void figures_as_printed(void **state) {
-    Folder *place = *state;
+    OwnFolder *place = *state;
     write_pictures(place);
     const char *said;
     compare(place, "one.png two.png --fail 0.1", &said);
@@ -169,7 +143,7 @@ static void scale_and_classes(void **state) {
 }
 
 static void cuts_stay_inside(void **state) {
-    Folder *place = *state;
+    OwnFolder *place = *state;
     Image *image = plain(place->arena, 50, 20, 0);
     for (int i = 0; i < 50 * 20; i++)
         image->pixels[3 * i] = (float)i;
@@ -230,14 +204,14 @@ static size_t count_of(const char *text, const char *part) {
 }
 
 static void page_holds_everything(void **state) {
-    Folder *place = *state;
+    OwnFolder *place = *state;
     write_pictures(place);
     const char *odd = "o&dd '<b>.png";
-    assert_int_equal(rename(in(place, "one.png"), in(place, odd)), 0);
+    assert_int_equal(rename(own_path(place, "one.png"), own_path(place, odd)), 0);
     const char *said;
     assert_int_equal(compare(place, "\"o&dd '<b>.png\" two.png -o a/ -V", &said), 1); // a/ is made
     assert_non_null(strstr(said, "a/index.html"));
-    const char *page = file_read(place->arena, in(place, "a/index.html"), NULL, NULL);
+    const char *page = file_read(place->arena, own_path(place, "a/index.html"), NULL, NULL);
     assert_non_null(page);
 
     // Nothing from outside, nothing unescaped.
@@ -253,15 +227,15 @@ static void page_holds_everything(void **state) {
     assert_int_equal(count_of(page, "<div"), count_of(page, "</div>"));
 
     // The pictures are the pictures; the map is dark where they are equal.
-    const char *const files[] = {in(place, odd), in(place, "two.png")};
+    const char *const files[] = {own_path(place, odd), own_path(place, "two.png")};
     for (int i = 0; i < 3; i++) {
         size_t size;
         unsigned char *bytes = data_url(place->arena, page, i, &size);
         assert_non_null(bytes);
-        FILE *f = fopen(in(place, "back.png"), "wb");
+        FILE *f = fopen(own_path(place, "back.png"), "wb");
         fwrite(bytes, 1, size, f);
         fclose(f);
-        Image *back = image_read(place->arena, in(place, "back.png"));
+        Image *back = image_read(place->arena, own_path(place, "back.png"));
         if (i < 2) {
             Image *file = image_read(place->arena, files[i]);
             assert_true(image_compare(back, file, 0, 0).max == 0);
@@ -276,7 +250,7 @@ static void page_holds_everything(void **state) {
 }
 
 static void script_runs_in_a_browser(void **state) {
-    Folder *place = *state;
+    OwnFolder *place = *state;
     if (system("command -v chromium >/dev/null 2>&1") != 0) {
         print_message("skipped: chromium is not installed\n");
         skip();
@@ -310,25 +284,26 @@ static void script_runs_in_a_browser(void **state) {
         print_message("skipped: chromium does not run here\n");
         skip();
     }
-    const char *dom = file_read(place->arena, in(place, "dom.html"), NULL, NULL);
+    const char *dom = file_read(place->arena, own_path(place, "dom.html"), NULL, NULL);
     assert_non_null(strstr(dom, "<html lang=\"en\" class=\"js\">"));
     assert_non_null(strstr(dom, "data-mode=\"slider\""));
     assert_non_null(strstr(dom, "--cut: 50%"));
     assert_non_null(strstr(dom, "one.png left, two.png right"));
-    dom = file_read(place->arena, in(place, "told.html"), NULL, NULL);
+    dom = file_read(place->arena, own_path(place, "told.html"), NULL, NULL);
     if (!strstr(dom, "data-said=\"images 7; input 30%; pointer 75; blink; slider\""))
         fail_msg("the page says %.200s", strstr(dom, "data-said"));
-    assert_null(strstr(file_read(place->arena, in(place, "browser.txt"), NULL, NULL), "CONSOLE"));
+    assert_null(
+        strstr(file_read(place->arena, own_path(place, "browser.txt"), NULL, NULL), "CONSOLE"));
 }
 
 // A ball of one colour under an orthographic camera: both renderers give the same bytes.
 static void one_scene_both_renderers(void **state) {
-    Folder *place = *state;
+    OwnFolder *place = *state;
     if (!reference_available()) {
         print_message("skipped: povray is not installed\n");
         skip();
     }
-    FILE *f = fopen(in(place, "ball.pov"), "w");
+    FILE *f = fopen(own_path(place, "ball.pov"), "w");
     fputs("#version 3.7; global_settings { assumed_gamma 1.0 }\n"
           "camera { orthographic location -3*z right 4*x up 3*y direction z }\n"
           "sphere { 0, 0.97 pigment { rgb <0.9, 0.6, 0.3> } finish { ambient 1 diffuse 0 } }\n",
@@ -340,13 +315,13 @@ static void one_scene_both_renderers(void **state) {
         fail_msg("status %d: %s", status, said);
     assert_non_null(strstr(said, "PASS"));
     assert_non_null(strstr(said, "User seconds: POV-Ray "));
-    Image *a = image_read(place->arena, in(place, "out/povray.png"));
-    Image *b = image_read(place->arena, in(place, "out/qirender.png"));
+    Image *a = image_read(place->arena, own_path(place, "out/povray.png"));
+    Image *b = image_read(place->arena, own_path(place, "out/qirender.png"));
     assert_true(a->width == 64 && a->height == 48);
     assert_true(image_compare(a, b, 0, 0).max == 0);
 
     // The page names the commands, word for word; ours alone has the word with two dashes.
-    const char *page = file_read(place->arena, in(place, "out/index.html"), NULL, NULL);
+    const char *page = file_read(place->arena, own_path(place, "out/index.html"), NULL, NULL);
     assert_non_null(strstr(page, "<pre>povray -h48 +W64 +A0.3 +L./ +Iball.pov +Oout/povray.png "
                                  "+W64 +H48 -D -P</pre>"));
     assert_non_null(strstr(page, "/qirender -h48 +W64 +A0.3 +L./ --method facets +Iball.pov "
@@ -354,7 +329,7 @@ static void one_scene_both_renderers(void **state) {
     assert_non_null(strstr(page, "User seconds"));
 
     // What POV-Ray does not take stops the comparison, with its words.
-    f = fopen(in(place, "bad.pov"), "w");
+    f = fopen(own_path(place, "bad.pov"), "w");
     fputs("sphere { 0, 1 pigment { rgb Redd } }\n", f);
     fclose(f);
     status = compare(place, "bad.pov +W8 +H6 -o out2", &said);
@@ -365,7 +340,7 @@ static void one_scene_both_renderers(void **state) {
 
 // Only what --region names is compared; places keep their numbers in the whole picture.
 static void regions(void **state) {
-    Folder *place = *state;
+    OwnFolder *place = *state;
     write_pictures(place);
     const char *said;
     assert_int_equal(compare(place, "one.png two.png --fail 0.0041 --region 2,1,8,5", &said), 1);
@@ -380,7 +355,7 @@ static void regions(void **state) {
 
 // Places: the worst first, each with its own neighbourhood, none below the limit.
 static void places_are_apart(void **state) {
-    Folder *p = *state;
+    OwnFolder *p = *state;
     Image *off = ARENA_NEW(p->arena, Image);
     *off = (Image){.width = 64, .height = 48, .channels = 1, .bits = 32};
     off->pixels = ARENA_ARRAY(p->arena, float, 64 * 48);
@@ -399,7 +374,7 @@ static void places_are_apart(void **state) {
 
 // The causes, each from pictures that can only mean that one.
 static void causes_are_proved(void **state) {
-    Folder *p = *state;
+    OwnFolder *p = *state;
     Image *a = plain(p->arena, 20, 20, 0.5f), *b = plain(p->arena, 20, 20, 0.5f),
           *c = plain(p->arena, 20, 20, 0.5f);
     b->pixels[3 * (10 * 20 + 10)] = 0.7f;
@@ -427,12 +402,12 @@ static void causes_are_proved(void **state) {
 
 // A patch cut coarsely, and a scene that is not there: a page each and one over them.
 static void several_scenes(void **state) {
-    Folder *place = *state;
+    OwnFolder *place = *state;
     if (!reference_available()) {
         print_message("skipped: povray is not installed\n");
         skip();
     }
-    FILE *f = fopen(in(place, "patch.pov"), "w");
+    FILE *f = fopen(own_path(place, "patch.pov"), "w");
     fputs("#version 3.7; global_settings { assumed_gamma 1.0 }\n"
           "camera { location -5*z angle 40 }\nlight_source { <3, 5, -9>, 1 }\n"
           "bicubic_patch { type 1 u_steps 1 v_steps 1 <-1,-1,0> <-1,-.3,-2> <-1,.3,-2> <-1,1,0>\n"
@@ -446,11 +421,11 @@ static void several_scenes(void **state) {
     assert_int_equal(status, 1);
     assert_non_null(strstr(said, "3 of the 3 worst places: geometry"));
     assert_non_null(strstr(said, "nowhere.pov: not compared"));
-    const char *page = file_read(place->arena, in(place, "all/index.html"), NULL, NULL);
+    const char *page = file_read(place->arena, own_path(place, "all/index.html"), NULL, NULL);
     assert_non_null(strstr(page, "href=\"patch/index.html\""));
     assert_non_null(strstr(page, "3 geometry"));
     assert_non_null(strstr(page, "not compared"));
-    page = file_read(place->arena, in(place, "all/patch/index.html"), NULL, NULL);
+    page = file_read(place->arena, own_path(place, "all/patch/index.html"), NULL, NULL);
     assert_int_equal(count_of(page, "Cause: <b>geometry</b>"), 3);
     assert_int_equal(count_of(page, "How the pixel comes about"), 6);
     assert_non_null(strstr(page, "QI nets down to it"));
@@ -459,19 +434,19 @@ static void several_scenes(void **state) {
 // Stopped while POV-Ray reads a scene that never ends: the page of the scene before it is whole,
 // the index names what is missing, and POV-Ray does not go on behind.
 static void interruption_leaves_whole_files(void **state) {
-    Folder *place = *state;
+    OwnFolder *place = *state;
     if (!reference_available()) {
         print_message("skipped: povray is not installed\n");
         skip();
     }
-    FILE *f = fopen(in(place, "ball.pov"), "w");
+    FILE *f = fopen(own_path(place, "ball.pov"), "w");
     fputs("#version 3.7; global_settings { assumed_gamma 1.0 }\ncamera { location -3*z }\n"
           "sphere { 0, 1 pigment { rgb 1 } finish { ambient 1 } }\n",
           f);
     fclose(f);
     // A name that no other process has, so that POV-Ray can be looked for.
     const char *endless = arena_printf(place->arena, "endless%d", (int)getpid());
-    f = fopen(in(place, arena_printf(place->arena, "%s.pov", endless)), "w");
+    f = fopen(own_path(place, arena_printf(place->arena, "%s.pov", endless)), "w");
     fputs("#version 3.7;\n#while (1) #local A = 1; #end\n", f);
     fclose(f);
     const char *command = arena_printf(
@@ -483,34 +458,32 @@ static void interruption_leaves_whole_files(void **state) {
         place->folder, place->root, endless, place->folder, endless, endless);
     int status = system(command);
     assert_int_equal(WIFEXITED(status) ? WEXITSTATUS(status) : -1, 2);
-    const char *said = file_read(place->arena, in(place, "said.txt"), NULL, NULL);
+    const char *said = file_read(place->arena, own_path(place, "said.txt"), NULL, NULL);
     assert_non_null(strstr(said, ".pov: not compared"));
     assert_non_null(strstr(said, "qicompare: interrupted"));
-    const char *page = file_read(place->arena, in(place, "all/index.html"), NULL, NULL);
+    const char *page = file_read(place->arena, own_path(place, "all/index.html"), NULL, NULL);
     assert_non_null(page);
     assert_int_equal(count_of(page, "not compared"), 2);
     assert_non_null(strstr(page, "interrupted before it"));
-    page = file_read(place->arena, in(place, "all/ball/index.html"), NULL, NULL);
+    page = file_read(place->arena, own_path(place, "all/ball/index.html"), NULL, NULL);
     assert_non_null(strstr(page, "</html>"));
 }
 
-#define TEST(function) cmocka_unit_test_setup_teardown(function, create, destroy)
-
 int main(void) {
     const struct CMUnitTest tests[] = {
-        TEST(exit_status),
-        TEST(figures_as_printed),
-        TEST(scale_and_classes),
-        TEST(cuts_stay_inside),
-        TEST(text_is_escaped),
-        TEST(page_holds_everything),
-        TEST(script_runs_in_a_browser),
-        TEST(one_scene_both_renderers),
-        TEST(regions),
-        TEST(places_are_apart),
-        TEST(causes_are_proved),
-        TEST(several_scenes),
-        TEST(interruption_leaves_whole_files),
+        OWN_FOLDER_TEST(exit_status),
+        OWN_FOLDER_TEST(figures_as_printed),
+        OWN_FOLDER_TEST(scale_and_classes),
+        OWN_FOLDER_TEST(cuts_stay_inside),
+        OWN_FOLDER_TEST(text_is_escaped),
+        OWN_FOLDER_TEST(page_holds_everything),
+        OWN_FOLDER_TEST(script_runs_in_a_browser),
+        OWN_FOLDER_TEST(one_scene_both_renderers),
+        OWN_FOLDER_TEST(regions),
+        OWN_FOLDER_TEST(places_are_apart),
+        OWN_FOLDER_TEST(causes_are_proved),
+        OWN_FOLDER_TEST(several_scenes),
+        OWN_FOLDER_TEST(interruption_leaves_whole_files),
     };
     return cmocka_run_group_tests_name("compare", tests, NULL, NULL);
 }

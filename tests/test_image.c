@@ -9,6 +9,7 @@
 
 #include <cmocka.h>
 
+#include "own_folder.h"
 #include "base/diag.h"
 #include "base/file.h"
 #include "base/rng.h"
@@ -22,34 +23,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-typedef struct {
-    Arena *arena;
-    char folder[64];
-} Place;
-
-static int create(void **state) {
-    Place *place = calloc(1, sizeof *place);
-    place->arena = arena_create();
-    strcpy(place->folder, "/tmp/qipov-image-XXXXXX");
-    *state = place;
-    return mkdtemp(place->folder) ? 0 : 1;
-}
-
-static int destroy(void **state) {
-    Place *place = *state;
-    char command[128];
-    snprintf(command, sizeof command, "rm -rf %s", place->folder);
-    int status = system(command);
-    arena_destroy(place->arena);
-    free(place);
-    return status;
-}
-
-static const char *in(const Place *place, const char *name) {
-    return arena_printf(place->arena, "%s/%s", place->folder, name);
-}
-
-static int files_in(const Place *place) {
+static int files_in(const OwnFolder *place) {
     char command[128];
     snprintf(command, sizeof command, "ls -A %s | wc -l", place->folder);
     FILE *pipe = popen(command, "r");
@@ -113,7 +87,7 @@ static void extensions(void **state) {
 
 // What goes out comes in again, value for value.
 static void lossless_formats(void **state) {
-    Place *place = *state;
+    OwnFolder *place = *state;
     const struct {
         ImageFormat format;
         int bits, channels;
@@ -130,8 +104,8 @@ static void lossless_formats(void **state) {
         Image *out = ramp(place->arena, 29, 37, cases[i].channels, cases[i].bits);
         ImageWriteOptions o = options_of(cases[i].format, cases[i].bits);
         o.compressed = cases[i].compressed;
-        const char *path =
-            in(place, arena_printf(place->arena, "%zu.%s", i, image_extension(cases[i].format)));
+        const char *path = own_path(
+            place, arena_printf(place->arena, "%zu.%s", i, image_extension(cases[i].format)));
         image_write(path, out, &o);
         Image *back = image_read(place->arena, path);
         assert_int_equal(back->width, out->width);
@@ -152,13 +126,15 @@ static void lossless_formats(void **state) {
 }
 
 static void float_formats(void **state) {
-    Place *place = *state;
+    OwnFolder *place = *state;
     Image *out = ramp(place->arena, 16, 9, 3, 8);
     out->pixels[0] = 40.0f; // brighter than white survives
-    image_write(in(place, "x.exr"), out, &(ImageWriteOptions){.format = IMAGE_EXR, .gamma = 1});
-    image_write(in(place, "x.hdr"), out, &(ImageWriteOptions){.format = IMAGE_HDR, .gamma = 1});
-    Image *exr = image_read(place->arena, in(place, "x.exr"));
-    Image *hdr = image_read(place->arena, in(place, "x.hdr"));
+    image_write(own_path(place, "x.exr"), out,
+                &(ImageWriteOptions){.format = IMAGE_EXR, .gamma = 1});
+    image_write(own_path(place, "x.hdr"), out,
+                &(ImageWriteOptions){.format = IMAGE_HDR, .gamma = 1});
+    Image *exr = image_read(place->arena, own_path(place, "x.exr"));
+    Image *hdr = image_read(place->arena, own_path(place, "x.hdr"));
     for (int i = 0; i < 16 * 9 * 3; i++) {
         // Half floats have 11 bits; RGBE shares an exponent: 8 bits of the brightest channel.
         float x = out->pixels[i], brightest = 0;
@@ -171,11 +147,11 @@ static void float_formats(void **state) {
 
 // Where a format has no place for alpha, the colours stay.
 static void alpha_is_dropped_where_it_must(void **state) {
-    Place *place = *state;
+    OwnFolder *place = *state;
     Image *out = ramp(place->arena, 4, 3, 4, 8);
     const ImageWriteOptions o = options_of(IMAGE_PPM, 8);
-    image_write(in(place, "x.ppm"), out, &o);
-    Image *back = image_read(place->arena, in(place, "x.ppm"));
+    image_write(own_path(place, "x.ppm"), out, &o);
+    Image *back = image_read(place->arena, own_path(place, "x.ppm"));
     assert_int_equal(back->channels, 3);
     for (int i = 0; i < 12; i++)
         for (int c = 0; c < 3; c++)
@@ -195,7 +171,7 @@ static const unsigned char *png_chunk(const char *file, size_t size, const char 
 }
 
 static void png_headers(void **state) {
-    Place *place = *state;
+    OwnFolder *place = *state;
     const struct {
         double gamma;
         bool srgb;
@@ -206,9 +182,9 @@ static void png_headers(void **state) {
         o.gamma = cases[i].gamma;
         o.srgb = cases[i].srgb;
         o.software = "qipov test";
-        image_write(in(place, "h.png"), ramp(place->arena, 3, 2, 3, 8), &o);
+        image_write(own_path(place, "h.png"), ramp(place->arena, 3, 2, 3, 8), &o);
         size_t size;
-        const char *file = file_read(place->arena, in(place, "h.png"), &size, NULL);
+        const char *file = file_read(place->arena, own_path(place, "h.png"), &size, NULL);
         const unsigned char *gama = png_chunk(file, size, "gAMA");
         int written = gama ? gama[0] << 24 | gama[1] << 16 | gama[2] << 8 | gama[3] : 0;
         assert_in_range(written, cases[i].written ? cases[i].written - 1 : 0,
@@ -220,14 +196,14 @@ static void png_headers(void **state) {
 }
 
 static void same_bytes_twice(void **state) {
-    Place *place = *state;
+    OwnFolder *place = *state;
     for (int f = IMAGE_PNG; f <= IMAGE_TIFF; f++) {
         const ImageWriteOptions o = options_of((ImageFormat)f, 8);
         size_t size[2];
         const char *bytes[2];
         for (int i = 0; i < 2; i++) {
-            image_write(in(place, "same"), ramp(place->arena, 31, 7, 3, 8), &o);
-            bytes[i] = file_read(place->arena, in(place, "same"), &size[i], NULL);
+            image_write(own_path(place, "same"), ramp(place->arena, 31, 7, 3, 8), &o);
+            bytes[i] = file_read(place->arena, own_path(place, "same"), &size[i], NULL);
         }
         assert_int_equal(size[0], size[1]);
         assert_memory_equal(bytes[0], bytes[1], size[0]);
@@ -235,12 +211,12 @@ static void same_bytes_twice(void **state) {
 }
 
 static void nothing_is_left_after_failure(void **state) {
-    Place *place = *state;
+    OwnFolder *place = *state;
     Write w = {.image = ramp(place->arena, 8, 8, 3, 8), .options = image_write_options_default()};
     const struct {
         const char *path, *why;
     } cases[] = {
-        {in(place, "no/such/x.png"), "No such file"},
+        {own_path(place, "no/such/x.png"), "No such file"},
         {place->folder, "directory"},
         {"/dev/null/x.png", "Not a directory"},
     };
@@ -256,7 +232,7 @@ static void nothing_is_left_after_failure(void **state) {
 
     // A file that was there before stays as it was.
     if (geteuid() != 0) {
-        w.path = in(place, "kept.png");
+        w.path = own_path(place, "kept.png");
         image_write(w.path, w.image, &w.options);
         chmod(place->folder, 0500);
         char *message = NULL;
@@ -269,12 +245,13 @@ static void nothing_is_left_after_failure(void **state) {
 
 // A limit on the size of files stands in for a full disk: the write fails part of the way.
 static void full_disk(void **state) {
-    Place *place = *state;
+    OwnFolder *place = *state;
     Rng rng = {9};
     Image *noise = ramp(place->arena, 256, 256, 3, 8); // will not compress below the limit
     for (int i = 0; i < 256 * 256 * 3; i++)
         noise->pixels[i] = (float)(rng_next(&rng) & 255) / 255.0f;
-    Write w = {.path = in(place, "full.png"), .image = noise, .options = options_of(IMAGE_PNG, 8)};
+    Write w = {
+        .path = own_path(place, "full.png"), .image = noise, .options = options_of(IMAGE_PNG, 8)};
     image_write(w.path, ramp(place->arena, 2, 2, 3, 8), &w.options); // an older file of that name
 
     struct rlimit before, small;
@@ -296,17 +273,17 @@ static void full_disk(void **state) {
 }
 
 static void standard_output(void **state) {
-    Place *place = *state;
+    OwnFolder *place = *state;
     Image *out = ramp(place->arena, 11, 5, 3, 8);
     const ImageWriteOptions o = options_of(IMAGE_PNG, 8);
     fflush(stdout);
     int keep = dup(STDOUT_FILENO);
-    assert_non_null(freopen(in(place, "stdout.png"), "wb", stdout));
+    assert_non_null(freopen(own_path(place, "stdout.png"), "wb", stdout));
     image_write("-", out, &o);
     fflush(stdout);
     dup2(keep, STDOUT_FILENO);
     close(keep);
-    Image *back = image_read(place->arena, in(place, "stdout.png"));
+    Image *back = image_read(place->arena, own_path(place, "stdout.png"));
     assert_int_equal(back->width, 11);
     assert_true(fabsf(back->pixels[100] - out->pixels[100]) < 1e-6f);
 }
@@ -319,17 +296,17 @@ typedef struct {
 static void read_body(void *arg) { image_read(((Read *)arg)->arena, ((Read *)arg)->path); }
 
 static void unreadable_pictures(void **state) {
-    Place *place = *state;
+    OwnFolder *place = *state;
     const ImageWriteOptions o = options_of(IMAGE_PNG, 8);
-    image_write(in(place, "whole.png"), ramp(place->arena, 64, 64, 3, 8), &o);
+    image_write(own_path(place, "whole.png"), ramp(place->arena, 64, 64, 3, 8), &o);
     size_t size;
-    const char *bytes = file_read(place->arena, in(place, "whole.png"), &size, NULL);
+    const char *bytes = file_read(place->arena, own_path(place, "whole.png"), &size, NULL);
     const struct {
         const char *name;
         size_t length;
     } files[] = {{"empty.png", 0}, {"cut.png", size / 2}, {"head.png", 20}, {"text.png", 3}};
     for (size_t i = 0; i < sizeof files / sizeof *files; i++) {
-        FILE *f = fopen(in(place, files[i].name), "wb");
+        FILE *f = fopen(own_path(place, files[i].name), "wb");
         fwrite(bytes, 1, files[i].length, f);
         fclose(f);
     }
@@ -337,7 +314,7 @@ static void unreadable_pictures(void **state) {
     static const unsigned char huge[] = {
         0x89, 'P',  'N',  'G',  13,   10,   26,   10, 0, 0, 0, 13, 'I', 'H', 'D', 'R', 0x7f,
         0xff, 0xff, 0xff, 0x7f, 0xff, 0xff, 0xff, 8,  2, 0, 0, 0,  0,   0,   0,   0};
-    FILE *f = fopen(in(place, "huge.png"), "wb");
+    FILE *f = fopen(own_path(place, "huge.png"), "wb");
     fwrite(huge, 1, sizeof huge, f);
     fclose(f);
 
@@ -345,7 +322,7 @@ static void unreadable_pictures(void **state) {
                                  "huge.png",  "missing.png", "."};
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
         char *message = NULL;
-        Read r = {place->arena, in(place, names[i])};
+        Read r = {place->arena, own_path(place, names[i])};
         if (diag_catch(read_body, &r, &message))
             fail_msg("%s was read", names[i]);
         assert_non_null(strstr(message, names[i]));
@@ -357,7 +334,7 @@ static void unreadable_pictures(void **state) {
 // -----------------------------------------------------------------------------------
 
 static void equal_pictures(void **state) {
-    Place *place = *state;
+    OwnFolder *place = *state;
     Image *a = ramp(place->arena, 20, 10, 3, 8);
     ImageDifference d = image_compare(a, a, 1e-6, 1e-6);
     assert_true(d.mean == 0 && d.rms == 0 && d.max == 0 && isinf(d.psnr));
@@ -366,7 +343,7 @@ static void equal_pictures(void **state) {
 
 // Three values of 600 are off by 0.5, 0.25 and one step of 8 bits.
 static void figures_by_hand(void **state) {
-    Place *place = *state;
+    OwnFolder *place = *state;
     Image *a = ramp(place->arena, 20, 10, 3, 8), *b = ramp(place->arena, 20, 10, 3, 8);
     memset(a->pixels, 0, 600 * sizeof(float));
     memset(b->pixels, 0, 600 * sizeof(float));
@@ -388,7 +365,7 @@ static void figures_by_hand(void **state) {
 }
 
 static void unlike_channels_and_nan(void **state) {
-    Place *place = *state;
+    OwnFolder *place = *state;
     Image *grey = ramp(place->arena, 4, 4, 1, 8), *rgb = ramp(place->arena, 4, 4, 3, 8);
     Image *rgba = ramp(place->arena, 4, 4, 4, 8);
     for (int i = 0; i < 16; i++)
@@ -419,7 +396,7 @@ typedef struct {
 static void compare_body(void *arg) { image_compare(((Pair *)arg)->a, ((Pair *)arg)->b, 0, 0); }
 
 static void unlike_sizes(void **state) {
-    Place *place = *state;
+    OwnFolder *place = *state;
     Pair pair = {ramp(place->arena, 20, 10, 3, 8), ramp(place->arena, 10, 20, 3, 8)};
     char *message = NULL;
     assert_false(diag_catch(compare_body, &pair, &message));
@@ -430,7 +407,7 @@ static void unlike_sizes(void **state) {
 
 // From 0 to 1 the false colours grow lighter, step by step (CIE luminance).
 static void false_colors_are_ordered(void **state) {
-    Place *place = *state;
+    OwnFolder *place = *state;
     Image *values = ramp(place->arena, 256, 1, 1, 8);
     Image *colors = image_false_color(place->arena, values);
     double before = -1;
@@ -447,38 +424,36 @@ static void false_colors_are_ordered(void **state) {
 }
 
 static void png_in_memory(void **state) {
-    Place *place = *state;
+    OwnFolder *place = *state;
     Image *out = ramp(place->arena, 13, 7, 3, 8);
     size_t size;
     unsigned char *bytes = image_encode_png(place->arena, out, &size);
-    FILE *f = fopen(in(place, "memory.png"), "wb");
+    FILE *f = fopen(own_path(place, "memory.png"), "wb");
     fwrite(bytes, 1, size, f);
     fclose(f);
-    Image *back = image_read(place->arena, in(place, "memory.png"));
+    Image *back = image_read(place->arena, own_path(place, "memory.png"));
     for (int i = 0; i < 13 * 7 * 3; i++)
         assert_true(fabsf(back->pixels[i] - out->pixels[i]) < 1e-6f);
 }
 
-#define TEST(function) cmocka_unit_test_setup_teardown(function, create, destroy)
-
 int main(void) {
     const struct CMUnitTest tests[] = {
-        TEST(extensions),
-        TEST(lossless_formats),
-        TEST(float_formats),
-        TEST(alpha_is_dropped_where_it_must),
-        TEST(png_headers),
-        TEST(same_bytes_twice),
-        TEST(nothing_is_left_after_failure),
-        TEST(full_disk),
-        TEST(standard_output),
-        TEST(unreadable_pictures),
-        TEST(equal_pictures),
-        TEST(figures_by_hand),
-        TEST(unlike_channels_and_nan),
-        TEST(unlike_sizes),
-        TEST(false_colors_are_ordered),
-        TEST(png_in_memory),
+        OWN_FOLDER_TEST(extensions),
+        OWN_FOLDER_TEST(lossless_formats),
+        OWN_FOLDER_TEST(float_formats),
+        OWN_FOLDER_TEST(alpha_is_dropped_where_it_must),
+        OWN_FOLDER_TEST(png_headers),
+        OWN_FOLDER_TEST(same_bytes_twice),
+        OWN_FOLDER_TEST(nothing_is_left_after_failure),
+        OWN_FOLDER_TEST(full_disk),
+        OWN_FOLDER_TEST(standard_output),
+        OWN_FOLDER_TEST(unreadable_pictures),
+        OWN_FOLDER_TEST(equal_pictures),
+        OWN_FOLDER_TEST(figures_by_hand),
+        OWN_FOLDER_TEST(unlike_channels_and_nan),
+        OWN_FOLDER_TEST(unlike_sizes),
+        OWN_FOLDER_TEST(false_colors_are_ordered),
+        OWN_FOLDER_TEST(png_in_memory),
     };
     return cmocka_run_group_tests_name("image", tests, NULL, NULL);
 }

@@ -9,6 +9,7 @@
 
 #include <cmocka.h>
 
+#include "arena_state.h"
 #include "base/diag.h"
 #include "base/file.h"
 #include "options/options.h"
@@ -349,16 +350,6 @@ static void written(void **state) {
     unlink("w.ini");
 }
 
-static int create(void **state) {
-    *state = arena_create();
-    return 0;
-}
-
-static int destroy(void **state) {
-    arena_destroy(*state);
-    return 0;
-}
-
 static int enter(void **state) {
     (void)state;
     return mkdtemp(folder) && chdir(folder) == 0 ? 0 : -1;
@@ -374,13 +365,14 @@ static int leave(void **state) {
     return rmdir(folder);
 }
 
-#define TEST(function) cmocka_unit_test_setup_teardown(function, create, destroy)
-
 int main(void) {
     const struct CMUnitTest tests[] = {
-        TEST(lines),          TEST(order),   TEST(rest_of_line), TEST(booleans),
-        TEST(sections),       TEST(nested),  TEST(wrong_lines),  TEST(which_povray_ini),
-        TEST(other_programs), TEST(remarks), TEST(written),      TEST(any_bytes),
+        ARENA_TEST(lines),          ARENA_TEST(order),
+        ARENA_TEST(rest_of_line),   ARENA_TEST(booleans),
+        ARENA_TEST(sections),       ARENA_TEST(nested),
+        ARENA_TEST(wrong_lines),    ARENA_TEST(which_povray_ini),
+        ARENA_TEST(other_programs), ARENA_TEST(remarks),
+        ARENA_TEST(written),        ARENA_TEST(any_bytes),
     };
     return cmocka_run_group_tests_name("ini", tests, enter, leave);
 }

@@ -8,6 +8,7 @@
 
 #include <cmocka.h>
 
+#include "arena_state.h"
 #include "base/file.h"
 #include "options/options.h"
 
@@ -348,31 +349,19 @@ static void input_names(void **state) {
     rmdir(folder);
 }
 
-static int create(void **state) {
-    *state = arena_create();
-    return 0;
-}
-
-static int destroy(void **state) {
-    arena_destroy(*state);
-    return 0;
-}
-
-#define TEST(function) cmocka_unit_test_setup_teardown(function, create, destroy)
-
 int main(void) {
     const struct CMUnitTest tests[] = {
-        TEST(defaults),
-        TEST(switches_and_keywords_agree),
-        TEST(values),
-        TEST(format_by_name),
-        TEST(libraries_and_declares),
-        TEST(harmless_switches),
-        TEST(message_streams),
-        TEST(wrong_words),
-        TEST(words_of_the_other_programs),
-        TEST(output_names),
-        TEST(input_names),
+        ARENA_TEST(defaults),
+        ARENA_TEST(switches_and_keywords_agree),
+        ARENA_TEST(values),
+        ARENA_TEST(format_by_name),
+        ARENA_TEST(libraries_and_declares),
+        ARENA_TEST(harmless_switches),
+        ARENA_TEST(message_streams),
+        ARENA_TEST(wrong_words),
+        ARENA_TEST(words_of_the_other_programs),
+        ARENA_TEST(output_names),
+        ARENA_TEST(input_names),
     };
     return cmocka_run_group_tests_name("options", tests, NULL, NULL);
 }

@@ -14,28 +14,9 @@
 #include "base/rng.h"
 #include "shape/quartic.h"
 #include "shape/roots.h"
-#include "shape/shape.h"
+#include "shape_fixture.h"
 
 #include <string.h>
-
-static Arena *arena;
-
-static int create_arena(void **state) {
-    (void)state;
-    arena = arena_create();
-    return 0;
-}
-
-static int destroy_arena(void **state) {
-    (void)state;
-    arena_destroy(arena);
-    return 0;
-}
-
-static Shape prepare(Object object) {
-    Object *kept = arena_copy(arena, &object, sizeof object);
-    return shape_prepare(NULL, kept, NULL, arena);
-}
 
 static Shape sphere(Vec3 center, double radius) {
     return prepare((Object){.type = OBJECT_SPHERE, .shape.sphere = {center, radius}});

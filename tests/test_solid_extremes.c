@@ -13,26 +13,7 @@
 #include <cmocka.h>
 
 #include "base/rng.h"
-#include "shape/shape.h"
-
-static Arena *arena;
-
-static int create_arena(void **state) {
-    (void)state;
-    arena = arena_create();
-    return 0;
-}
-
-static int destroy_arena(void **state) {
-    (void)state;
-    arena_destroy(arena);
-    return 0;
-}
-
-static Shape prepare(Object object) {
-    Object *kept = arena_copy(arena, &object, sizeof object);
-    return shape_prepare(NULL, kept, NULL, arena);
-}
+#include "shape_fixture.h"
 
 static Vec3 random_unit(Rng *rng) {
     for (;;) {

@@ -10,28 +10,9 @@
 #include <cmocka.h>
 
 #include "base/rng.h"
-#include "shape/shape.h"
-
-static Arena *arena;
-
-static int create_arena(void **state) {
-    (void)state;
-    arena = arena_create();
-    return 0;
-}
-
-static int destroy_arena(void **state) {
-    (void)state;
-    arena_destroy(arena);
-    return 0;
-}
+#include "shape_fixture.h"
 
 static const Box everywhere = {{-INFINITY, -INFINITY, -INFINITY}, {INFINITY, INFINITY, INFINITY}};
-
-static Shape prepare(Object object) {
-    Object *kept = arena_copy(arena, &object, sizeof object);
-    return shape_prepare(NULL, kept, NULL, arena);
-}
 
 static Shape plane(Vec3 normal, double distance) {
     return prepare((Object){.type = OBJECT_PLANE, .shape.plane = {normal, distance}});

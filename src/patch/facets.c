@@ -14,6 +14,7 @@
 #include "patch/facets.h"
 
 #include "base/array.h"
+#include "patch/bernstein.h"
 #include "patch/tree.h"
 
 #include <assert.h>
@@ -324,24 +325,10 @@ typedef struct {
     uint32_t patch;
 } Walk;
 
-// Bernstein weights of degree n and their derivatives.
-static inline void weights(int n, double t, double *w, double *dw) {
-    // Those of degree n - 1, shifted by one, give both.
-    double s = 1.0 - t, low[18] = {0.0, 1.0};
-    for (int k = 1; k < n; k++) {
-        for (int i = k + 1; i > 0; i--)
-            low[i] = low[i] * s + low[i - 1] * t;
-    }
-    for (int i = 0; i <= n; i++) {
-        w[i] = low[i + 1] * s + low[i] * t;
-        dw[i] = n * (low[i] - low[i + 1]);
-    }
-}
-
 static inline Vec3 normal_of(const Vec3 *points, int nu, int nv, Vec2 at) {
     double wu[17], du[17], wv[17], dv[17];
-    weights(nu, at.u, wu, du);
-    weights(nv, at.v, wv, dv);
+    bernstein(nu, at.u, wu, du);
+    bernstein(nv, at.v, wv, dv);
     Vec3 su = vec3(0, 0, 0), sv = vec3(0, 0, 0);
     for (int i = 0; i <= nu; i++) {
         for (int j = 0; j <= nv; j++, points++) {

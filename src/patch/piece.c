@@ -3,6 +3,7 @@
 #include "patch/piece.h"
 
 #include "base/array.h"
+#include "patch/bernstein.h"
 #include "patch/quasi.h"
 
 #include <assert.h>
@@ -47,36 +48,11 @@ typedef struct {
 
 // ---- Evaluation
 
-static void weights_cubic(double t, double w[4], double dw[4]) {
-    double s = 1.0 - t;
-    w[0] = s * s * s;
-    w[1] = 3.0 * s * s * t;
-    w[2] = 3.0 * s * t * t;
-    w[3] = t * t * t;
-    dw[0] = -3.0 * s * s;
-    dw[1] = 3.0 * s * (s - 2.0 * t);
-    dw[2] = 3.0 * t * (2.0 * s - t);
-    dw[3] = 3.0 * t * t;
-}
-
-// Bernstein weights of degree n and their derivatives.
-static void weights(int n, double t, double *w, double *dw) {
-    double s = 1.0 - t, low[BEZIER_MAX_DEGREE + 2] = {0.0, 1.0}; // degree n - 1, shifted by one
-    for (int k = 1; k < n; k++) {
-        for (int i = k + 1; i > 0; i--)
-            low[i] = low[i] * s + low[i - 1] * t;
-    }
-    for (int i = 0; i <= n; i++) {
-        w[i] = low[i + 1] * s + low[i] * t;
-        dw[i] = n * (low[i] - low[i + 1]);
-    }
-}
-
 // Points as [column][row][x y z]: loops over adjacent numbers, which become vector code.
 static void eval_cubic(const double *p, double u, double v, Vec3 out[3]) {
     double wu[4], du[4], wv[4], dv[4], row[12], slope[12], s[3], su[3], sv[3];
-    weights_cubic(u, wu, du);
-    weights_cubic(v, wv, dv);
+    bernstein_cubic(u, wu, du);
+    bernstein_cubic(v, wv, dv);
     for (int k = 0; k < 12; k++) {
         row[k] = wv[0] * p[k] + wv[1] * p[12 + k] + wv[2] * p[24 + k] + wv[3] * p[36 + k];
         slope[k] = dv[0] * p[k] + dv[1] * p[12 + k] + dv[2] * p[24 + k] + dv[3] * p[36 + k];
@@ -96,8 +72,8 @@ static void eval_any(const AccelPatch *patch, double u, double v, Vec3 out[3]) {
     int nu = (int)patch->def->degree_u, nv = (int)patch->def->degree_v;
     double wu[BEZIER_MAX_DEGREE + 1], du[BEZIER_MAX_DEGREE + 1];
     double wv[BEZIER_MAX_DEGREE + 1], dv[BEZIER_MAX_DEGREE + 1], result[3][3] = {{0.0}};
-    weights(nu, u, wu, du);
-    weights(nv, v, wv, dv);
+    bernstein(nu, u, wu, du);
+    bernstein(nv, v, wv, dv);
     const double *p = patch->local;
     for (int axis = 0; axis < 3; axis++) {
         for (int i = 0; i <= nu; i++, p += nv + 1) {

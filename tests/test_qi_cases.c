@@ -267,11 +267,35 @@ static void flat_rays_at_poles(void **state) {
     }
 }
 
+// Rays along the tangent plane of a wavy sheet, above it or below by 10^-k of its size: up to 560
+// nets halved their way along the curve on which the ray is level with the sheet.
+static void tangent_rays(void **state) {
+    (void)state;
+    Bezier s = {.du = 3, .dv = 3};
+    for (int i = 0; i < 4; i++)
+        for (int j = 0; j < 4; j++)
+            s.p[4 * i + j] = vec3(i + 0.1 * j, j - 0.2 * i, sin(2.5 * i - 1.0) * cos(1.5 * j));
+    for (int k = 0; k < 2000; k++) {
+        double u = 0.01 * (k % 97 + 1), v = 0.01 * (k % 89 + 1), turn = 0.1 * k;
+        double off = k % 10 == 0 ? 0.0 : pow(0.1, k % 10 + 4.0) * (k % 20 < 10 ? 3.0 : -3.0);
+        Vec3 su, sv, at = bezier_eval1(&s, u, v, &su, &sv);
+        Vec3 normal = vec_normalize(vec_cross(su, sv));
+        Vec3 dir = vec_add(vec_scale(su, cos(turn)), vec_scale(sv, sin(turn)));
+        Vec3 org = vec_sub(vec_madd(at, off, normal), dir);
+        QiQuery q = qi_query_default(&s, (Ray){org, dir});
+        QiHit hit;
+        QiStats stats = {0, 0, 0, 0};
+        qi_reduce_nearest(&s, &q, &stats, &hit);
+        if (stats.steps > 100)
+            fail_msg("ray %d: %d steps", k, (int)stats.steps);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(rays_at_ribbons),    cmocka_unit_test(prepared_ribbons),
         cmocka_unit_test(pairs_on_ribbons),   cmocka_unit_test(small_beside_huge),
-        cmocka_unit_test(flat_rays_at_poles),
+        cmocka_unit_test(flat_rays_at_poles), cmocka_unit_test(tangent_rays),
     };
     return cmocka_run_group_tests_name("qi_cases", tests, NULL, NULL);
 }

@@ -23,21 +23,21 @@
 // the precisions differ: of a ribbon 1e10 times longer than wide, seen from its length away, one
 // coordinate is exact to 1e-14 of its size and the other to 1e-6. Mixed size by size, the first
 // would be known no better than the second, and a curve along which the second vanishes within its
-// rounding would have to be covered by 1e6 pieces.) What does not shrink is halved, across the
+// rounding would have to be covered by 1e6 pieces.) Along the curve on which the first vanishes the
+// second is taken to be a parabola (qi_bend.h). What does not shrink is halved, across the
 // direction that is longer as the ray sees it. A piece wholly within the tolerance of the ray is
 // one hit, and so is a curve of a piece on which one coordinate vanishes while the other is nothing
 // but rounding: a tangent ray, or one that lies in the surface.
 #include "patch/qi.h"
 
+#include "patch/qi_bend.h"
 #include "patch/qi_pole.h"
-#include "patch/qi_root.h"
 #include "patch/quasi.h"
 
 #include <assert.h>
 #include <float.h>
 #include <stddef.h>
 
-enum { LINE = BEZIER_MAX_DEGREE + 1, POINTS = BEZIER_MAX_POINTS };
 // Halving stops at parameter widths of 2^-49, where a piece spans less than 16 ulps.
 enum { HALVINGS = 49, STACK = 2 * HALVINGS + 2 };
 static const double LEAST_WIDTH = 0x1p-49;
@@ -53,202 +53,6 @@ typedef struct {
     unsigned poles; // qi_poles()
     uint64_t steps, work_limit;
 } Search;
-
-typedef struct {
-    double low, high;
-} Span;
-
-// The remainder's QI bounds, and L of the intro.
-typedef struct {
-    Span span;
-    double slope;
-} Remainder;
-
-// ---- Pieces ----
-
-// Weights of the control points in the control points of the part [a,b]: those of the k-th are the
-// coefficients of ((1-a) + a x)^(d-k) ((1-b) + b x)^k. All are >= 0, so relative errors stay
-// relative. Weight i of point k is w[k * step_k + i * step_i].
-static inline void restriction(double *w, int step_k, int step_i, int d, double a, double b) {
-    double at_a[LINE], row[LINE];
-    at_a[0] = 1.0;
-    for (int k = d; k >= 0; k--) {
-        for (int i = 0; i <= d - k; i++)
-            row[i] = at_a[i];
-        for (int n = d - k + 1; n <= d; n++) { // n: degree reached
-            row[n] = row[n - 1] * b;
-            for (int i = n - 1; i > 0; i--)
-                row[i] = row[i] * (1.0 - b) + row[i - 1] * b;
-            row[0] *= 1.0 - b;
-        }
-        for (int i = 0; i <= d; i++)
-            w[k * step_k + i * step_i] = row[i];
-        if (k > 0) {
-            int n = d - k + 1;
-            at_a[n] = at_a[n - 1] * a;
-            for (int i = n - 1; i > 0; i--)
-                at_a[i] = at_a[i] * (1.0 - a) + at_a[i - 1] * a;
-            at_a[0] *= 1.0 - a;
-        }
-    }
-}
-
-// out = wu p wv; the inner loops run along rows, so that they vectorise.
-static inline void restrict_axis(const double *p, const double *wu, const double *wv, int du,
-                                 int dv, double *restrict out) {
-    double half[POINTS];
-    int nu = du + 1, nv = dv + 1;
-    for (int k = 0; k < nu; k++) {
-        for (int j = 0; j < nv; j++) {
-            double sum = wu[k * nu] * p[j];
-            for (int i = 1; i < nu; i++)
-                sum += wu[k * nu + i] * p[i * nv + j];
-            half[k * nv + j] = sum;
-        }
-    }
-    for (int k = 0; k < nu; k++) {
-        for (int m = 0; m < nv; m++) {
-            double sum = half[k * nv] * wv[m];
-            for (int j = 1; j < nv; j++)
-                sum += half[k * nv + j] * wv[j * nv + m];
-            out[k * nv + m] = sum;
-        }
-    }
-}
-
-static inline Span span_of(const double *p, int count) {
-    Span s = {p[0], p[0]};
-    for (int k = 1; k < count; k++) {
-        s.low = p[k] < s.low ? p[k] : s.low;
-        s.high = p[k] > s.high ? p[k] : s.high;
-    }
-    return s;
-}
-
-// Mean difference between opposite sides.
-static inline double trend_u(const double *p, int du, int dv) {
-    double sum = 0.0;
-    for (int j = 0; j <= dv; j++)
-        sum += p[du * (dv + 1) + j] - p[j];
-    return sum / (dv + 1);
-}
-
-static inline double trend_v(const double *p, int du, int dv) {
-    double sum = 0.0;
-    for (int i = 0; i <= du; i++)
-        sum += p[i * (dv + 1) + dv] - p[i * (dv + 1)];
-    return sum / (du + 1);
-}
-
-// ---- Bounds ----
-
-static inline double larger(double a, double b) { return a > b ? a : b; }
-
-static inline double largest(const double *a, int count) {
-    double most = a[0];
-    for (int k = 1; k < count; k++)
-        most = larger(most, a[k]);
-    return most;
-}
-
-// Largest absolute second differences, and slopes of the control points, along both directions.
-// Maxima are kept by column, so that the inner loops vectorise.
-static inline void differences(const double *r, int du, int dv, double second[2], double slope[2]) {
-    int row = dv + 1;
-    double first[LINE], before[LINE], most[LINE], most2[LINE];
-    most[0] = most2[0] = 0.0; // for gcc, which does not know that dv >= 1
-    for (int j = 0; j <= dv; j++) {
-        before[j] = r[row + j] - r[j];
-        most[j] = fabs(before[j]);
-        most2[j] = 0.0;
-    }
-    for (int i = 1; i < du; i++) {
-        const double *c = r + i * row;
-        for (int j = 0; j <= dv; j++) {
-            double here = c[row + j] - c[j];
-            most[j] = larger(most[j], fabs(here));
-            most2[j] = larger(most2[j], fabs(here - before[j]));
-            before[j] = here;
-        }
-    }
-    second[0] = largest(most2, dv + 1);
-    slope[0] = du * largest(most, dv + 1);
-
-    for (int j = 0; j < dv; j++)
-        most[j] = most2[j] = 0.0;
-    for (int i = 0; i <= du; i++) {
-        const double *c = r + i * row;
-        for (int j = 0; j < dv; j++) {
-            first[j] = c[j + 1] - c[j];
-            most[j] = larger(most[j], fabs(first[j]));
-        }
-        for (int j = 1; j < dv; j++)
-            most2[j] = larger(most2[j], fabs(first[j] - first[j - 1]));
-    }
-    second[1] = largest(most2, dv);
-    slope[1] = dv * largest(most, dv);
-}
-
-// Span of the net M r M^T.
-static inline Span quasi_span(const double *r, int du, int dv) {
-    int row = dv + 1;
-    double low[LINE], high[LINE], c[LINE], q[LINE];
-    for (int i = 0; i <= du; i++) {
-        const double *here = r + i * row;
-        for (int j = 0; j <= dv; j++)
-            c[j] = i == 0 || i == du ? here[j]
-                                     : 0.25 * (here[j - row] + 2.0 * here[j] + here[j + row]);
-        q[0] = c[0];
-        q[dv] = c[dv];
-        for (int j = 1; j < dv; j++)
-            q[j] = 0.25 * (c[j - 1] + 2.0 * c[j] + c[j + 1]);
-        for (int j = 0; j <= dv; j++) {
-            low[j] = i == 0 || q[j] < low[j] ? q[j] : low[j];
-            high[j] = i == 0 || q[j] > high[j] ? q[j] : high[j];
-        }
-    }
-    Span a = span_of(low, row), b = span_of(high, row);
-    return (Span){a.low, b.high};
-}
-
-static inline Remainder bound_remainder(const QiNet *p, int du, int dv, QiForm f, double zu,
-                                        double zv, const QiFrame *frame) {
-    double r[POINTS], second[2], slope[2], base_v[LINE];
-    for (int j = 0; j <= dv; j++)
-        base_v[j] = f.av * ((double)j / dv);
-    for (int i = 0; i <= du; i++) {
-        double base = f.au * ((double)i / du);
-        for (int j = 0; j <= dv; j++) {
-            int k = i * (dv + 1) + j;
-            r[k] = f.bx * p->x[k] + f.by * p->y[k] - (base + base_v[j]);
-        }
-    }
-    differences(r, du, dv, second, slope);
-    Span s = quasi_span(r, du, dv);
-    // Rounding: that of the coordinates, and of the parameters' share.
-    double eps = zu * second[0] + zv * second[1] + fabs(f.bx) * frame->slack_x +
-                 fabs(f.by) * frame->slack_y + 16.0 * DBL_EPSILON * (fabs(f.au) + fabs(f.av));
-    return (Remainder){{s.low - eps, s.high + eps}, slope[0] + slope[1]};
-}
-
-// Solves a p + b q + r = 0 for p: p in [0,1] already narrowed to *p, q in *q, r in its span.
-// False when no p is left. A product with 0 is 0 here, since q is finite.
-static bool clip(double a, double b, Span r, Span q, Span *p) {
-    double low = -r.high - larger(b * q.low, b * q.high);
-    double high = -r.low - (b * q.low < b * q.high ? b * q.low : b * q.high);
-    if (a < 0.0) {
-        double swap = -low;
-        low = -high, high = swap, a = -a;
-    }
-    // a p in [low, high]: multiplied out, so that a tiny a only fails to clip.
-    if (p->low * a > high || p->high * a < low)
-        return false;
-    if (p->low * a < low)
-        p->low = low / a;
-    if (p->high * a > high)
-        p->high = high / a;
-    return true;
-}
 
 // The part of [low,high] that a local span leaves, rounded outwards by some ulps of 1.
 static void narrow(double *low, double *high, Span part) {
@@ -287,12 +91,11 @@ static bool within_rational(const QiNet *p, int count, double radius) {
 
 // ---- One step ----
 
-typedef enum { STEP_DONE, STEP_AGAIN, STEP_HALVE } Step;
+typedef enum { STEP_DONE, STEP_AGAIN, STEP_BOTH } Step;
 
-// What a step leaves of its piece, and how to halve it.
+// What a step leaves of its piece: one part, or two.
 typedef struct {
-    BezierRect rect;
-    bool along_u, low_first;
+    BezierRect rect, later;
 } Rest;
 
 // Rounding of a form's value.
@@ -374,6 +177,14 @@ typedef struct {
     bool regular; // forms are A (x, y)
 } Piece;
 
+// The part of the piece over two spans.
+static inline BezierRect part_of(const Piece *p, Span u, Span v) {
+    BezierRect part = p->rect;
+    narrow(&part.u0, &part.u1, u);
+    narrow(&part.v0, &part.v1, v);
+    return part;
+}
+
 // Restricts the patch, reads the parameters off. False: the ray misses the piece, or meets it only
 // at depths that do not count.
 static inline bool reduce_piece(Search *q, int du, int dv, Piece *p) {
@@ -412,9 +223,7 @@ static inline bool reduce_piece(Search *q, int du, int dv, Piece *p) {
         depth.low - target->frame.slack_z > qi_list_z_high(&target->list, &target->frame))
         return false;
 
-    p->left = r;
-    narrow(&p->left.u0, &p->left.u1, p->u);
-    narrow(&p->left.v0, &p->left.v1, p->v);
+    p->left = part_of(p, p->u, p->v);
     return true;
 }
 
@@ -513,6 +322,64 @@ static inline bool finish_singular(Search *q, int count, const Piece *p, bool le
     return true;
 }
 
+static inline void halve(const BezierRect *rect, bool along_u, bool low_first, Rest *rest) {
+    BezierRect half[2] = {*rect, *rect};
+    if (along_u)
+        half[0].u1 = half[1].u0 = 0.5 * (rect->u0 + rect->u1);
+    else
+        half[0].v1 = half[1].v0 = 0.5 * (rect->v0 + rect->v1);
+    rest->rect = half[low_first ? 0 : 1];
+    rest->later = half[low_first ? 1 : 0];
+}
+
+// A width at its least counts as not shrinking, so that each such step halves what can shrink.
+static inline double kept_of(double width, double whole) {
+    return width <= LEAST_WIDTH ? 1.0 : width / whole;
+}
+
+static inline bool shrank(const Piece *p) {
+    const BezierRect *r = &p->rect;
+    return kept_of(p->left.u1 - p->left.u0, r->u1 - r->u0) *
+               kept_of(p->left.v1 - p->left.v0, r->v1 - r->v0) <=
+           0.5;
+}
+
+static inline bool nearer(int du, int dv, const Piece *p, bool along_u) {
+    return nearer_low(along_u, p->regular, p->forms[0], trend_u(p->net.z, du, dv),
+                      trend_v(p->net.z, du, dv));
+}
+
+static inline double width_of(BezierRect r, bool along_u) {
+    return along_u ? r.u1 - r.u0 : r.v1 - r.v0;
+}
+
+// Clips a piece of a singular J by its bend: STEP_DONE if nothing is left, STEP_BOTH if *rest has
+// two parts of at most half the length, else STEP_AGAIN and what is left in p.
+static inline Step bend_piece(const Search *q, int du, int dv, Piece *p, Rest *rest) {
+    Span us[2], vs[2];
+    int count = bend_clip(&p->net, du, dv, p->forms, p->bounds[0].span, quasi_z_infinity(du),
+                          quasi_z_infinity(dv), &q->target.frame, p->u, p->v, us, vs);
+    if (count == 0)
+        return STEP_DONE;
+    if (count == 1) {
+        p->u = us[0], p->v = vs[0];
+        p->left = part_of(p, us[0], vs[0]);
+        return STEP_AGAIN;
+    }
+    bool along_u = fabs(p->forms[0].au) < fabs(p->forms[0].av);
+    BezierRect low = part_of(p, us[0], vs[0]), high = part_of(p, us[1], vs[1]);
+    double half = 0.5 * width_of(p->left, along_u);
+    if (width_of(low, along_u) <= half && width_of(high, along_u) <= half) {
+        bool low_first = nearer(du, dv, p, along_u);
+        *rest = low_first ? (Rest){low, high} : (Rest){high, low};
+        return STEP_BOTH;
+    }
+    p->u = span_hull(us[0], us[1]);
+    p->v = span_hull(vs[0], vs[1]);
+    p->left = part_of(p, p->u, p->v);
+    return STEP_AGAIN;
+}
+
 static inline Step step_of(Search *q, BezierRect rect, int du, int dv, Rest *rest) {
     Piece p;
     p.rect = rect;
@@ -521,26 +388,31 @@ static inline Step step_of(Search *q, BezierRect rect, int du, int dv, Rest *res
     rest->rect = p.left;
     if ((q->poles && qi_pole_settle(&q->target, q->poles, &p.net, rect)) || finish_single(q, &p))
         return STEP_DONE;
-
-    double width_u = p.left.u1 - p.left.u0, width_v = p.left.v1 - p.left.v0;
-    bool least_u = width_u <= LEAST_WIDTH, least_v = width_v <= LEAST_WIDTH;
+    bool least_u = p.left.u1 - p.left.u0 <= LEAST_WIDTH,
+         least_v = p.left.v1 - p.left.v0 <= LEAST_WIDTH;
     bool least = least_u && least_v;
-    // A width at its least counts as not shrinking, so that each such step halves what can shrink.
-    double kept_u = least_u ? 1.0 : width_u / (rect.u1 - rect.u0);
-    double kept_v = least_v ? 1.0 : width_v / (rect.v1 - rect.v0);
-    if (!least && kept_u * kept_v <= 0.5)
+    if (!least && shrank(&p))
         return STEP_AGAIN;
     if (finish_singular(q, (du + 1) * (dv + 1), &p, least))
         return STEP_DONE;
+    if (!p.regular) {
+        Step step = bend_piece(q, du, dv, &p, rest);
+        if (step != STEP_AGAIN)
+            return step;
+        rest->rect = p.left;
+        if (shrank(&p))
+            return STEP_AGAIN;
+        least_u = p.left.u1 - p.left.u0 <= LEAST_WIDTH;
+        least_v = p.left.v1 - p.left.v0 <= LEAST_WIDTH;
+    }
 
     double along_u, along_v;
     lengths(&q->target, &p.net, du, dv, &along_u, &along_v);
     along_u *= p.u.high - p.u.low;
     along_v *= p.v.high - p.v.low;
-    rest->along_u = least_v || (!least_u && along_u >= along_v);
-    rest->low_first = nearer_low(rest->along_u, p.regular, p.forms[0], trend_u(p.net.z, du, dv),
-                                 trend_v(p.net.z, du, dv));
-    return STEP_HALVE;
+    bool across_u = least_v || (!least_u && along_u >= along_v);
+    halve(&p.left, across_u, nearer(du, dv, &p, across_u), rest);
+    return STEP_BOTH;
 }
 
 // The bicubic case gets its own copy, with loops of known length.
@@ -549,14 +421,8 @@ static Step step_any(Search *q, BezierRect r, Rest *rest) {
     return step_of(q, r, q->target.du, q->target.dv, rest);
 }
 
-// Beyond the work limit: only the half whose middle is nearer to the ray is followed.
-static bool first_half_nearer(const Search *q, const BezierRect half[2]) {
-    double off[2];
-    for (int k = 0; k < 2; k++) {
-        off[k] = qi_root_off(&q->target, 0.5 * (half[k].u0 + half[k].u1),
-                             0.5 * (half[k].v0 + half[k].v1));
-    }
-    return off[0] <= off[1];
+static double middle_off(const Search *q, BezierRect r) {
+    return qi_root_off(&q->target, 0.5 * (r.u0 + r.u1), 0.5 * (r.v0 + r.v1));
 }
 
 static void search(Search *q, BezierRect rect) {
@@ -564,7 +430,7 @@ static void search(Search *q, BezierRect rect) {
     int count = 0;
     stack[count++] = rect;
     while (count > 0 && !qi_list_done(&q->target.list)) {
-        Rest rest = {stack[--count], false, false};
+        Rest rest = {.rect = stack[--count]};
         Step step;
         do {
             step = q->target.du == 3 && q->target.dv == 3 ? step_bicubic(q, rest.rect, &rest)
@@ -572,20 +438,16 @@ static void search(Search *q, BezierRect rect) {
         } while (step == STEP_AGAIN);
         if (step == STEP_DONE)
             continue;
-        // Depth first, so at most one half waits per level, and a level halves one width.
-        BezierRect half[2] = {rest.rect, rest.rect};
-        if (rest.along_u)
-            half[0].u1 = half[1].u0 = 0.5 * (rest.rect.u0 + rest.rect.u1);
-        else
-            half[0].v1 = half[1].v0 = 0.5 * (rest.rect.v0 + rest.rect.v1);
-        int first = rest.low_first ? 0 : 1;
+        // Beyond the work limit only the part whose middle is nearer to the ray is followed.
         if (q->steps > q->work_limit) {
-            stack[count++] = half[first_half_nearer(q, half) ? 0 : 1];
+            bool first = middle_off(q, rest.rect) <= middle_off(q, rest.later);
+            stack[count++] = first ? rest.rect : rest.later;
             continue;
         }
+        // Depth first, so at most one part waits per level, and a level halves one width.
         assert(count + 2 <= STACK);
-        stack[count++] = half[1 - first];
-        stack[count++] = half[first];
+        stack[count++] = rest.later;
+        stack[count++] = rest.rect;
     }
 }
 

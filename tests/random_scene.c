@@ -509,8 +509,8 @@ static uint32_t make_objects(Rng *rng, Arena *arena, Scene *scene, int depth, ui
     for (uint32_t i = 0; i < count; i++) {
         bool leaf = depth > 3 || scene->object_count > MAX_OBJECTS - 160;
         ObjectType type =
-            (ObjectType)(leaf ? OBJECT_PATCH + random_below(rng, OBJECT_TYPE_COUNT - OBJECT_PATCH)
-                              : random_below(rng, OBJECT_TYPE_COUNT));
+            (ObjectType)(leaf ? OBJECT_PATCH + random_below(rng, OBJECT_INSTANCE - OBJECT_PATCH)
+                              : random_below(rng, OBJECT_INSTANCE));
         uint32_t index = scene->object_count++;
         Object object = object_default(type);
         object.texture = index_or_none(rng, scene->texture_count);
@@ -542,6 +542,42 @@ static uint32_t make_objects(Rng *rng, Arena *arena, Scene *scene, int depth, ui
         (*items)[i] = index;
     }
     return count;
+}
+
+// Ascending pairs.
+static uint32_t make_pairs(Rng *rng, Arena *arena, uint32_t pool, uint32_t **pairs) {
+    uint32_t count = 0;
+    *pairs = ARENA_ARRAY(arena, uint32_t, 2 * (size_t)pool);
+    for (uint32_t i = 0; i < pool; i++) {
+        if (random_bool(rng))
+            continue;
+        (*pairs)[2 * count] = i;
+        (*pairs)[2 * count++ + 1] = random_below(rng, pool);
+    }
+    return count;
+}
+
+// Behind the objects at top level, so that these are numbered in order.
+static void make_instances(Rng *rng, Arena *arena, Scene *scene) {
+    uint32_t count = scene->definition_count ? random_below(rng, 5) : 0;
+    uint32_t *roots = ARENA_ARRAY(arena, uint32_t, scene->root_count + count);
+    for (uint32_t i = 0; i < scene->root_count; i++)
+        roots[i] = scene->roots[i];
+    for (uint32_t i = 0; i < count; i++) {
+        Object object = object_default(OBJECT_INSTANCE);
+        InstanceShape *shape = &object.shape.instance;
+        object.texture = index_or_none(rng, scene->texture_count);
+        object.interior = index_or_none(rng, scene->interior_count);
+        object.has_transform = random_bool(rng);
+        if (object.has_transform)
+            object.transform = random_transform(rng);
+        shape->definition = random_below(rng, scene->definition_count);
+        shape->texture_count = make_pairs(rng, arena, scene->texture_count, &shape->textures);
+        shape->interior_count = make_pairs(rng, arena, scene->interior_count, &shape->interiors);
+        roots[scene->root_count++] = scene->object_count;
+        scene->objects[scene->object_count++] = object;
+    }
+    scene->roots = roots;
 }
 
 static void make_sky_sphere(Rng *rng, Arena *arena, Scene *scene) {
@@ -633,8 +669,17 @@ Scene *random_scene(Rng *rng, Arena *arena) {
         scene->camera.normal = random_below(rng, scene->normal_count);
     random_pools(rng, arena, scene);
     scene->objects = ARENA_ARRAY(arena, Object, MAX_OBJECTS);
+    scene->definition_count = random_below(rng, 3);
     scene->root_count = make_objects(rng, arena, scene, 0, &scene->roots);
+    make_instances(rng, arena, scene);
     scene->projection_count = make_objects(rng, arena, scene, 2, &scene->projections);
+    scene->definitions = ARENA_ARRAY(arena, uint32_t, scene->definition_count);
+    for (uint32_t i = 0; i < scene->definition_count; i++) {
+        Object sphere = object_default(OBJECT_SPHERE);
+        sphere.texture = index_or_none(rng, scene->texture_count);
+        scene->definitions[i] = scene->object_count;
+        scene->objects[scene->object_count++] = sphere;
+    }
     for (uint32_t i = 0; i < scene->pigment_count && scene->projection_count > 0; i++) {
         Pattern *pattern = &scene->pigments[i].pattern;
         if (pattern->type == PATTERN_CHECKER)

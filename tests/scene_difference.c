@@ -188,6 +188,15 @@ static const char *shape_difference(const Object *a, const Object *b) {
         COMPARE(uint32_t, shape.children.count)
         COMPARE_ALL(a->shape.children.items, b->shape.children.items, a->shape.children.count)
         break;
+    case OBJECT_INSTANCE:
+        COMPARE(uint32_t, shape.instance.definition)
+        COMPARE(uint32_t, shape.instance.texture_count)
+        COMPARE(uint32_t, shape.instance.interior_count)
+        COMPARE_ALL(a->shape.instance.textures, b->shape.instance.textures,
+                    2 * (size_t)a->shape.instance.texture_count)
+        COMPARE_ALL(a->shape.instance.interiors, b->shape.instance.interiors,
+                    2 * (size_t)a->shape.instance.interior_count)
+        break;
     case OBJECT_PATCH:
         return patch_difference(&a->shape.patch, &b->shape.patch);
     case OBJECT_PLANE:
@@ -272,6 +281,8 @@ const char *scene_difference(const Scene *a, const Scene *b) {
     COMPARE(uint32_t, root_count)
     COMPARE(uint32_t, projection_count)
     COMPARE_ALL(a->projections, b->projections, a->projection_count)
+    COMPARE(uint32_t, definition_count)
+    COMPARE_ALL(a->definitions, b->definitions, a->definition_count)
     COMPARE(uint32_t, requires_count)
     COMPARE_ALL(a->roots, b->roots, a->root_count)
     for (uint32_t i = 0; i < a->requires_count; i++)

@@ -200,12 +200,12 @@ static void test_clips_and_inside(void **state) {
             assert_int_equal(world_inside(stage.world, root, p), want);
             inside += want;
             // A leaf fills p as far as the whole does.
-            uint32_t found[64];
+            WorldPlace found[64];
             uint32_t count = world_containing(stage.world, p, found, 64);
             if (!want)
                 assert_int_equal(count, 0);
             for (uint32_t k = 0; k < count; k++)
-                assert_true(member(&stage, found[k], p));
+                assert_true(member(&stage, found[k].object, p));
         }
         stage_end(&stage);
     }

@@ -437,6 +437,19 @@ static const struct {
           "\"object\", \"object\": 0, \"map\": [{\"value\": 0}, {\"value\": 1}]}], "
           "\"projections\": [{\"type\": \"isosurface\", \"function\": 0}]}",
      "part of itself"},
+    {HEAD "\"objects\": [{\"type\": \"instance\"}]}", "objects[0]: 'definition' is missing"},
+    {HEAD "\"objects\": [{\"type\": \"instance\", \"definition\": 1}], \"definitions\": "
+          "[{\"type\": \"sphere\", \"center\": [0, 0, 0], \"radius\": 1}]}",
+     "objects[0].definition: 1, but there is 1 definition"},
+    {HEAD "\"definitions\": [{\"type\": \"instance\", \"definition\": 0}]}",
+     "definitions[0]: an instance stands only among objects"},
+    {HEAD "\"objects\": [{\"type\": \"merge\", \"children\": [{\"type\": \"instance\", "
+          "\"definition\": 0}]}], \"definitions\": [{\"type\": \"union\", \"children\": []}]}",
+     "objects[0].children[0]: an instance stands only among objects"},
+    {HEAD "\"interiors\": [{}, {}], \"objects\": [{\"type\": \"instance\", \"definition\": 0, "
+          "\"interiors\": [[1, 0], [0, 1]]}], \"definitions\": [{\"type\": \"union\", "
+          "\"children\": []}]}",
+     "objects[0].interiors[1]: interior 0 is not above that of the pair before"},
     {HEAD "\"objects\": [{\"type\": \"parametric\", \"function_x\": 0, \"function_y\": 0}]}",
      "objects[0]: 'function_z' is missing"},
     {HEAD "\"pigments\": [{\"type\": \"checker\", \"map\": [{\"value\": 0, \"pigment\": 1}]}]}",

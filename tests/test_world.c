@@ -273,13 +273,14 @@ static void test_merge_is_membership(void **state) {
         compare_rays(&stage, &rng, 120, &hits);
         for (int i = 0; i < 200; i++) {
             Vec3 p = random_vec(&rng, 3);
-            uint32_t found[64], want[64], want_count = 0;
+            WorldPlace found[64], want[64];
+            uint32_t want_count = 0;
             uint32_t found_count = world_containing(stage.world, p, found, 64);
             for (uint32_t o = 0; o < stage.objects.count; o++) {
                 bool inside = brute_inside(&stage, o, p);
                 assert_int_equal(world_inside(stage.world, o, p), inside);
                 if (inside && !stage_is_group(&stage.objects.items[o]))
-                    want[want_count++] = o;
+                    want[want_count++] = (WorldPlace){o, NO_INDEX};
             }
             // Leaves are stage_put before their groups here, in the order of the source.
             assert_int_equal(found_count, want_count);
@@ -298,7 +299,7 @@ static void test_empty_and_one(void **state) {
     Ray ray = {{0, 0, -5}, {0, 0, 1}};
     WorldHit hit;
     RayStats stats = {0};
-    uint32_t found[1];
+    WorldPlace found[1];
     Stage stage = stage_begin();
     stage_ready(&stage, false);
     assert_false(world_intersect(stage.world, &ray, 0, INFINITY, RAY_CAMERA, &stats, &hit));

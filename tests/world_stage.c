@@ -39,7 +39,9 @@ void stage_ready(Stage *stage, bool parts) {
     stage->scene = (Scene){.objects = stage->objects.items,
                            .object_count = (uint32_t)stage->objects.count,
                            .roots = stage->roots.items,
-                           .root_count = (uint32_t)stage->roots.count};
+                           .root_count = (uint32_t)stage->roots.count,
+                           .definitions = stage->definitions.items,
+                           .definition_count = (uint32_t)stage->definitions.count};
     stage->world = world_create(&stage->scene, &STAGE_FACETS);
     if (!parts)
         return;
@@ -61,6 +63,7 @@ void stage_end(Stage *stage) {
             patchset_destroy(stage->patches[i]);
     array_free(&stage->objects);
     array_free(&stage->roots);
+    array_free(&stage->definitions);
     arena_destroy(stage->arena);
 }
 

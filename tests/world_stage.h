@@ -10,7 +10,7 @@
 typedef struct {
     Arena *arena;
     ARRAY(Object) objects;
-    ARRAY(uint32_t) roots;
+    ARRAY(uint32_t) roots, definitions;
     Scene scene;
     Shape *shapes;      // of every leaf; NULL unless asked for
     PatchSet **patches; // one for every patch; NULL unless asked for

@@ -12,11 +12,11 @@ _Static_assert(sizeof(SweepSphere) == 4 * sizeof(double), "spheres are rows of n
 
 // ORDER object_type
 const char *const OBJECT_TYPE_NAMES[] = {
-    "union",        "merge",    "intersection",   "bicubic_patch",   "plane",   "sphere",
-    "box",          "cylinder", "cone",           "torus",           "disc",    "triangle",
-    "quadric",      "poly",     "superellipsoid", "lathe",           "sor",     "prism",
-    "sphere_sweep", "blob",     "ovus",           "smooth_triangle", "polygon", "mesh",
-    "height_field", "text",     "isosurface",     "parametric",      NULL,
+    "union",        "merge",    "intersection",   "bicubic_patch",   "plane",    "sphere",
+    "box",          "cylinder", "cone",           "torus",           "disc",     "triangle",
+    "quadric",      "poly",     "superellipsoid", "lathe",           "sor",      "prism",
+    "sphere_sweep", "blob",     "ovus",           "smooth_triangle", "polygon",  "mesh",
+    "height_field", "text",     "isosurface",     "parametric",      "instance", NULL,
 };
 _Static_assert(sizeof OBJECT_TYPE_NAMES / sizeof *OBJECT_TYPE_NAMES == OBJECT_TYPE_COUNT + 1,
                "a name for each type");
@@ -284,6 +284,17 @@ static const Field PARAMETRIC_FIELDS[] = {
     END,
 };
 
+static const Field INSTANCE_FIELDS[] = {
+    {.name = "definition",
+     .type = FIELD_INDEX,
+     .presence = FIELD_REQUIRED,
+     AT(Object, shape.instance.definition)},
+    INDEX_TABLE(Object, shape.instance.textures, shape.instance.texture_count, "textures", 2),
+    INDEX_TABLE(Object, shape.instance.interiors, shape.instance.interior_count, "interiors", 2),
+    OBJECT_TRANSFORM,
+    END,
+};
+
 // ORDER object_type
 static const Record OBJECT_RECORDS[] = {
     {NULL, OBJECT_FIELDS, sizeof(Object), NULL, NULL}, // union
@@ -314,6 +325,7 @@ static const Record OBJECT_RECORDS[] = {
     {&OBJECT, TEXT_FIELDS, sizeof(Object), NULL, NULL},
     {&OBJECT, ISOSURFACE_FIELDS, sizeof(Object), NULL, NULL},
     {&OBJECT, PARAMETRIC_FIELDS, sizeof(Object), NULL, NULL},
+    {&OBJECT, INSTANCE_FIELDS, sizeof(Object), NULL, NULL},
 };
 _Static_assert(sizeof OBJECT_RECORDS / sizeof *OBJECT_RECORDS == OBJECT_TYPE_COUNT,
                "a record for each type");

@@ -190,6 +190,31 @@ bool object_is_tree(const Object *object) {
            object->type == OBJECT_INTERSECTION;
 }
 
+// The second of the pair that begins with own, or own.
+static uint32_t find_pair(const uint32_t *pairs, uint32_t count, uint32_t own) {
+    uint32_t low = 0, high = count; // of the pairs not below own
+    while (low < high) {
+        uint32_t middle = (low + high) / 2;
+        if (pairs[2 * middle] < own)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low < count && pairs[2 * low] == own ? pairs[2 * low + 1] : own;
+}
+
+uint32_t instance_texture(const Object *instance, uint32_t own) {
+    const InstanceShape *shape = &instance->shape.instance;
+    return own == NO_INDEX ? instance->texture
+                           : find_pair(shape->textures, shape->texture_count, own);
+}
+
+uint32_t instance_interior(const Object *instance, uint32_t own) {
+    const InstanceShape *shape = &instance->shape.instance;
+    return own == NO_INDEX ? instance->interior
+                           : find_pair(shape->interiors, shape->interior_count, own);
+}
+
 // ---- requires -------------------------------------------------------------------------------
 
 // ORDER feature: sorted by byte, so that features in order give a sorted list.
@@ -242,6 +267,7 @@ bool object_is_tree(const Object *object) {
     X(hollow)                                                                                      \
     X(image_map)                                                                                   \
     X(image_pattern)                                                                               \
+    X(instance)                                                                                    \
     X(interior_fade)                                                                               \
     X(interior_texture)                                                                            \
     X(intersection)                                                                                \
@@ -535,6 +561,8 @@ static Feature object_feature(const Object *object) {
         return FEATURE_isosurface;
     case OBJECT_PARAMETRIC:
         return FEATURE_parametric;
+    case OBJECT_INSTANCE:
+        return FEATURE_instance;
     case OBJECT_TYPE_COUNT:
         break;
     }

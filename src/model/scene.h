@@ -486,6 +486,7 @@ typedef enum {
     OBJECT_TEXT,
     OBJECT_ISOSURFACE,
     OBJECT_PARAMETRIC,
+    OBJECT_INSTANCE, // a copy of a definition
     OBJECT_TYPE_COUNT,
 } ObjectType;
 
@@ -542,6 +543,18 @@ typedef struct {
     uint32_t count;
 } ObjectList;
 
+// The tree Scene.definitions[definition] once more, moved by Object.transform; textures are given
+// as they are in the world. Only at top level, or in unions without clips and bounds that are not
+// whole. Its flags are those of the tree's leaves. Leaves without a texture or an interior have
+// those of the instance (which needs none: then they are one body of air).
+typedef struct {
+    uint32_t definition;
+    uint32_t *textures; // pairs, ascending: leaves with the first have the second
+    uint32_t texture_count;
+    uint32_t *interiors; // the same
+    uint32_t interior_count;
+} InstanceShape;
+
 typedef struct {
     ObjectType type;
     // Leaves: NO_INDEX in texture means POV-Ray's built-in default (black). interior NO_INDEX: an
@@ -587,6 +600,7 @@ typedef struct {
         TextShape text;
         IsosurfaceShape isosurface;
         ParametricShape parametric;
+        InstanceShape instance;
         ObjectList children; // UNION, MERGE, INTERSECTION
     } shape;
 } Object;
@@ -662,6 +676,8 @@ typedef struct {
     uint32_t
         *projections; // objects that are not in the picture: see Light.projection, Pattern.object
     uint32_t projection_count;
+    uint32_t *definitions; // trees that instances show, without instances in them
+    uint32_t definition_count;
     const char **requires; // features the scene needs, sorted, each once ("bicubic_patch", ...)
     uint32_t requires_count;
 } Scene;
@@ -693,6 +709,10 @@ Object object_default(ObjectType type);
 bool object_is_tree(const Object *object);
 // Has it a local space, so that it may have a transform?
 bool object_has_space(ObjectType type);
+
+// What a leaf of the instance's definition has there whose own texture or interior that is.
+uint32_t instance_texture(const Object *instance, uint32_t own);
+uint32_t instance_interior(const Object *instance, uint32_t own);
 
 // Checks what the renderer relies on: indices in range, trees without cycles, degrees, finite
 // numbers, map positions. Dies naming the field ("objects[3].interior: ..."). file is for messages.

@@ -371,8 +371,8 @@ static void read_header(const Reader *r) {
 }
 
 static void read_document(void *context) {
-    static const char *const KEYS[] = {"format",  "version",     "requires", "buffers",
-                                       "objects", "projections", NULL};
+    static const char *const KEYS[] = {"format",  "version",     "requires",    "buffers",
+                                       "objects", "projections", "definitions", NULL};
     Reader *r = context;
     Scene *scene = r->scene;
     r->root = parse(r->file, r->scratch);
@@ -382,11 +382,14 @@ static void read_document(void *context) {
     read_buffers(r);
     json_t *objects = json_object_get(r->root, "objects");
     json_t *projections = json_object_get(r->root, "projections");
+    json_t *definitions = json_object_get(r->root, "definitions");
     uint64_t total = 0;
     if (objects)
         total += count_objects(r, NULL, "objects", objects, 0);
     if (projections)
         total += count_objects(r, NULL, "projections", projections, 0);
+    if (definitions)
+        total += count_objects(r, NULL, "definitions", definitions, 0);
     if (total >= NO_INDEX)
         path_die(r->file, NULL, "more objects than can be numbered");
     scene->object_count = (uint32_t)total;
@@ -397,6 +400,9 @@ static void read_document(void *context) {
     if (projections)
         scene->projections =
             read_objects(r, NULL, "projections", projections, &scene->projection_count);
+    if (definitions)
+        scene->definitions =
+            read_objects(r, NULL, "definitions", definitions, &scene->definition_count);
     // Scripts add and remove objects; what is needed is read off the scene itself.
     scene_collect_requires(scene, r->arena);
     scene_validate_at(scene, r->file, r->positions);

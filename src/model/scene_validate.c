@@ -220,6 +220,32 @@ static void check_box(const Check *c, const FieldPath *path, const BoxShape *box
         refuse(c, path, "'low' is above 'high'");
 }
 
+static void check_pairs(const Check *c, const FieldPath *path, const char *name,
+                        const uint32_t *pairs, uint32_t count, uint32_t pool, const char *what) {
+    for (uint32_t i = 0; i < count; i++) {
+        const FieldPath place = path_item(path, name, i);
+        const uint32_t *pair = &pairs[2 * (size_t)i];
+        check_index(c, &place, pair[0], pool, what);
+        check_index(c, &place, pair[1], pool, what);
+        if (i > 0 && pair[0] <= pair[-2])
+            refuse(c, &place, "%s %u is not above that of the pair before", what, pair[0]);
+    }
+}
+
+static void check_instance(const Check *c, const FieldPath *path, const Object *object) {
+    const InstanceShape *shape = &object->shape.instance;
+    const FieldPath definition = path_field(path, "definition");
+    check_index(c, &definition, shape->definition, c->scene->definition_count, "definition");
+    check_pairs(c, path, "textures", shape->textures, shape->texture_count, c->scene->texture_count,
+                "texture");
+    check_pairs(c, path, "interiors", shape->interiors, shape->interior_count,
+                c->scene->interior_count, "interior");
+    if (object->interior_texture != NO_INDEX)
+        refuse(c, path, "an instance has no 'interior_texture'");
+    if (object->clips.count > 0 || object->bounds.count > 0)
+        refuse(c, path, "an instance has no 'clipped_by' or 'bounded_by'");
+}
+
 static void check_shape(const Check *c, const FieldPath *path, const Object *object) {
     switch (object->type) {
     case OBJECT_UNION:
@@ -256,6 +282,9 @@ static void check_shape(const Check *c, const FieldPath *path, const Object *obj
         break;
     case OBJECT_TRIANGLE:
         check_numbers(c, path, "points", &object->shape.triangle.p[0].x, 9);
+        break;
+    case OBJECT_INSTANCE:
+        check_instance(c, path, object);
         break;
     default:
         check_solid(c, path, object);
@@ -296,10 +325,16 @@ static void check_closed(const Check *c, const FieldPath *path, const Object *ob
         refuse(c, path, "'solid' is for unions of patches");
 }
 
+// Instances stand in such objects.
+static bool holds_instances(const Object *object) {
+    return object->type == OBJECT_UNION && object->clips.count == 0 && object->bounds.count == 0 &&
+           !object->whole && !object->solid;
+}
+
 // A list of objects and all that hangs below it. Each object may be met once, so the walk ends even
-// if the lists lead back to themselves.
+// if the lists lead back to themselves. open: instances may stand there.
 static void check_list(Check *c, const FieldPath *up, const char *name, const uint32_t *items,
-                       uint32_t count, int depth) {
+                       uint32_t count, int depth, bool open) {
     if (depth > SCENE_MAX_DEPTH)
         refuse(c, up, "more than %d unions inside one another", SCENE_MAX_DEPTH);
     for (uint32_t i = 0; i < count; i++) {
@@ -312,22 +347,28 @@ static void check_list(Check *c, const FieldPath *up, const char *name, const ui
         c->met[index] = true;
         const Object *object = &c->scene->objects[index];
         check_object(c, &path, object);
+        if (object->type == OBJECT_INSTANCE && !open)
+            refuse(c, &path,
+                   "an instance stands only among objects, or in unions of them that "
+                   "nothing cuts");
         if (object_is_tree(object))
             check_list(c, &path, "children", object->shape.children.items,
-                       object->shape.children.count, depth + 1);
+                       object->shape.children.count, depth + 1, open && holds_instances(object));
         check_closed(c, &path, object);
         if (object->clips.count > 0)
-            check_list(c, &path, "clipped_by", object->clips.items, object->clips.count, depth + 1);
+            check_list(c, &path, "clipped_by", object->clips.items, object->clips.count, depth + 1,
+                       false);
         if (object->bounds.count > 0)
             check_list(c, &path, "bounded_by", object->bounds.items, object->bounds.count,
-                       depth + 1);
+                       depth + 1, false);
     }
 }
 
 static void check_objects(Check *c) {
     const Scene *scene = c->scene;
-    check_list(c, NULL, "objects", scene->roots, scene->root_count, 0);
-    check_list(c, NULL, "projections", scene->projections, scene->projection_count, 0);
+    check_list(c, NULL, "objects", scene->roots, scene->root_count, 0, true);
+    check_list(c, NULL, "projections", scene->projections, scene->projection_count, 0, false);
+    check_list(c, NULL, "definitions", scene->definitions, scene->definition_count, 0, false);
     for (uint32_t i = 0; i < scene->object_count; i++)
         if (!c->met[i])
             refuse(c, NULL, "object %u is part of no tree", i);

@@ -453,6 +453,10 @@ static void write_document(Writer *w, const char *uri) {
         member(w, &state, "projections");
         write_objects(w, scene->projections, scene->projection_count);
     }
+    if (scene->definition_count > 0) {
+        member(w, &state, "definitions");
+        write_objects(w, scene->definitions, scene->definition_count);
+    }
     if (w->binary) {
         member(w, &state, "buffers");
         fprintf(w->out, "[{\"uri\":%s,\"byteLength\":%llu}]", uri, (unsigned long long)w->position);

@@ -154,7 +154,8 @@ static uint32_t make_node(Maker *maker, uint32_t index, uint32_t parent, bool fr
         die("objects[%u]: more than %d unions, merges and intersections inside each other", index,
             SCENE_MAX_DEPTH);
     maker->of_object[index] = NO_INDEX;
-    if (object->type == OBJECT_PATCH && !framed && object->bounds.count == 0)
+    if (object->type == OBJECT_INSTANCE ||
+        (object->type == OBJECT_PATCH && !framed && object->bounds.count == 0))
         return NO_INDEX;
     uint32_t at = (uint32_t)maker->nodes.count;
     CsgNode node = {.object = object,
@@ -214,6 +215,8 @@ Csg csg_create(const Scene *scene, const PatchSetOptions *patches, Arena *arena)
                    .of_object = ARENA_ARRAY(arena, uint32_t, scene->object_count)};
     for (uint32_t i = 0; i < scene->root_count; i++)
         make_node(&maker, scene->roots[i], NO_INDEX, false, 0);
+    for (uint32_t i = 0; i < scene->definition_count; i++)
+        make_node(&maker, scene->definitions[i], NO_INDEX, false, 0);
     Csg csg = {
         .count = (uint32_t)maker.nodes.count, .of_object = maker.of_object, .shared = maker.shared};
     csg.nodes = arena_copy(arena, maker.nodes.items, csg.count * sizeof(CsgNode));

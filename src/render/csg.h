@@ -30,7 +30,8 @@ typedef struct {
 typedef struct {
     CsgNode *nodes;
     uint32_t count;
-    uint32_t *of_object; // node of each object; NO_INDEX: a patch that no tree can hide
+    uint32_t
+        *of_object; // node of each object; NO_INDEX: an instance, or a patch that no tree can hide
     ShapeShared *shared;
 } Csg;
 

@@ -3,9 +3,13 @@
 // the parent's chain; leaving an older one puts a node in front that cancels it.
 #include "render/interior.h"
 
-uint32_t body_of(const Scene *scene, uint32_t object) {
+uint32_t body_of(const Scene *scene, uint32_t object, uint32_t instance) {
     uint32_t interior = scene->objects[object].interior;
-    return interior != NO_INDEX ? interior : scene->interior_count + object;
+    if (instance != NO_INDEX)
+        interior = instance_interior(&scene->objects[instance], interior);
+    if (interior != NO_INDEX)
+        return interior;
+    return scene->interior_count + (instance != NO_INDEX ? instance : object);
 }
 
 const Interior *body_interior(const Scene *scene, uint32_t body) {

@@ -14,8 +14,9 @@ typedef struct InteriorList {
 } InteriorList;
 
 // Which body an object belongs to: objects with the same interior are one; an object without one
-// has an air interior of its own. Bodies count on after the scene's interiors.
-uint32_t body_of(const Scene *scene, uint32_t object);
+// has an air interior of its own, those of an instance (NO_INDEX: none) together. Bodies count on
+// after the scene's interiors.
+uint32_t body_of(const Scene *scene, uint32_t object, uint32_t instance);
 float body_ior(const Scene *scene, uint32_t body);
 // The interior's record, or NULL for an air interior.
 const Interior *body_interior(const Scene *scene, uint32_t body);

@@ -209,6 +209,7 @@ void shade_hit(Tracer *tracer, const Path *path, const WorldHit *hit, Color *col
     double cosine = vec_dot(hit->normal, path->ray.dir);
     ShapeTexture textures[SHAPE_MAX_TEXTURES];
     uint32_t count = surface_textures(object, hit, cosine, textures);
+    instance_textures(shading->scene, hit, textures, count);
     if (count == 1 && textures[0].texture == NO_INDEX) {
         *color = (Color){0}; // the built-in texture is black and opaque under any light
         return;
@@ -221,7 +222,7 @@ void shade_hit(Tracer *tracer, const Path *path, const WorldHit *hit, Color *col
         .path = path,
         .hit = hit,
         .normal = normal,
-        .body = shading->objects[hit->object].body,
+        .body = hit_body(shading, hit->object, hit->instance),
         .double_illuminate = object->double_illuminate,
         .number = ++tracer->hits,
         .at = &at,

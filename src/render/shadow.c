@@ -154,17 +154,18 @@ static Color textures_filter(const Filter *f, const ShapeTexture *textures, uint
 static bool surface_filter(Way *way, const WorldHit *hit, Rgb *color) {
     const Shading *shading = way->shading;
     const Ray *ray = &way->ray;
-    const ObjectInfo *info = &shading->objects[hit->object];
-    if (info->opaque)
+    if (hit_is_opaque(shading, hit))
         return false;
     const Object *object = &shading->scene->objects[hit->object];
     double cosine = vec_dot(hit->normal, ray->dir);
     ShapeTexture textures[SHAPE_MAX_TEXTURES];
     uint32_t count = surface_textures(object, hit, cosine, textures);
+    instance_textures(shading->scene, hit, textures, count);
     if (count == 1 && textures[0].texture == NO_INDEX)
         return false;
 
-    const Interior *interior = body_interior(shading->scene, info->body);
+    uint32_t body = hit_body(shading, hit->object, hit->instance);
+    const Interior *interior = body_interior(shading->scene, body);
     Vec3 normal = cosine > 0.0 ? vec_neg(hit->normal) : hit->normal;
     TextureHit at = {hit->p, ray->dir, hit->u, hit->v, normal, shading->quality.quick_color};
     TextureSpaces spaces;
@@ -174,12 +175,12 @@ static bool surface_filter(Way *way, const WorldHit *hit, Rgb *color) {
     Vec3 p = object->uv_mapping ? vec3(hit->u, hit->v, 0.0) : hit->p;
     Rgb through = color_through(textures_filter(&f, textures, count, p));
     bool fades = interior != NULL && interior->fade_power > 0.0f;
-    if (fades && is_inside(way, info->body))
+    if (fades && is_inside(way, body))
         through = rgb_mul(through, refract_fade(interior, hit->t));
     *color = rgb_mul(*color, through);
     add_fog(way, hit->t, color);
     if (fades || way->light->media_attenuation)
-        cross(&way->crossed, info->body);
+        cross(&way->crossed, body);
     return true;
 }
 

@@ -26,6 +26,23 @@ static Quality quality_of(int level) {
     };
 }
 
+static void mark_hollow(Shading *shading, uint32_t object, uint32_t instance) {
+    const Object *part = &shading->scene->objects[object];
+    if (!object_is_tree(part))
+        shading->hollow[body_of(shading->scene, object, instance)] = part->hollow;
+    for (uint32_t i = 0; object_is_tree(part) && i < part->shape.children.count; i++)
+        mark_hollow(shading, part->shape.children.items[i], instance);
+}
+
+// Opaque if all textures are that it gives to its parts.
+static void prepare_instance(Shading *shading, uint32_t index) {
+    const InstanceShape *shape = &shading->scene->objects[index].shape.instance;
+    ObjectInfo *info = &shading->objects[index];
+    for (uint32_t i = 0; info->opaque && i < shape->texture_count; i++)
+        info->opaque = texture_is_opaque(shading->textures, shape->textures[2 * i + 1]);
+    mark_hollow(shading, shading->scene->definitions[shape->definition], index);
+}
+
 static void prepare_objects(Shading *shading) {
     const Scene *scene = shading->scene;
     shading->objects = ARENA_ARRAY(shading->arena, ObjectInfo, scene->object_count);
@@ -35,8 +52,10 @@ static void prepare_objects(Shading *shading) {
     for (uint32_t i = 0; i < scene->object_count; i++) {
         const Object *object = &scene->objects[i];
         ObjectInfo *info = &shading->objects[i];
-        info->body = body_of(scene, i);
+        info->body = body_of(scene, i, NO_INDEX);
         info->opaque = surface_is_opaque(shading->textures, object);
+        if (object->type == OBJECT_INSTANCE)
+            prepare_instance(shading, i);
         shading->groups |= object->no_global_lights;
         if (!object_is_tree(object) && !object->no_shadow && !info->opaque)
             shading->all_opaque = false;
@@ -236,11 +255,11 @@ static const InteriorList *starting_interiors(Tracer *tracer, Vec3 org) {
     if (tracer->start_known && memcmp(&tracer->start, &org, sizeof org) == 0)
         return tracer->start_list;
     enum { LIMIT = sizeof tracer->start_nodes / sizeof tracer->start_nodes[0] };
-    uint32_t objects[LIMIT];
-    uint32_t count = world_containing(tracer->shading->world, org, objects, LIMIT);
+    WorldPlace places[LIMIT];
+    uint32_t count = world_containing(tracer->shading->world, org, places, LIMIT);
     tracer->start_list = NULL;
     for (uint32_t i = 0; i < count; i++) {
-        uint32_t body = tracer->shading->objects[objects[i]].body;
+        uint32_t body = hit_body(tracer->shading, places[i].object, places[i].instance);
         if (interior_inside(tracer->start_list, body))
             continue; // parts of one body that overlap
         tracer->start_nodes[i] = (InteriorList){tracer->start_list, body, false};

@@ -15,18 +15,21 @@ static const double PATCH_NEAREST = 1e-5;
 typedef struct {
     const World *world;
     Vec3 p;
-    uint32_t *found; // positions, ascending
+    const Leaf *outer; // the instance; NULL: none
+    WorldPlace *found; // ascending: positions, and those of the instances
     uint32_t count, max;
 } PointQuery;
 
-static void query_prim(PointQuery *query, const Prim *prim) {
-    uint32_t position = prim->leaf.position;
-    if (!shape_inside(&prim->shape, query->p) ||
-        !csg_fills(&query->world->csg, prim->leaf.node, query->p))
-        return;
-    // Insert in order; the last one falls out when there is no room.
+static void query_world(PointQuery *query);
+
+static bool comes_before(const WorldPlace *a, const WorldPlace *b) {
+    return a->instance != b->instance ? a->instance < b->instance : a->object < b->object;
+}
+
+// Insert in order; the last one falls out when there is no room.
+static void insert_place(PointQuery *query, WorldPlace place) {
     uint32_t at = query->count;
-    while (at > 0 && query->found[at - 1] > position)
+    while (at > 0 && comes_before(&place, &query->found[at - 1]))
         at--;
     if (at >= query->max)
         return;
@@ -34,27 +37,61 @@ static void query_prim(PointQuery *query, const Prim *prim) {
         query->count++;
     for (uint32_t i = query->count - 1; i > at; i--)
         query->found[i] = query->found[i - 1];
-    query->found[at] = position;
+    query->found[at] = place;
+}
+
+static void query_instance(PointQuery *query, const Leaf *leaf) {
+    PointQuery sub = *query;
+    sub.world = leaf->instance->world;
+    sub.p = shape_local_point(leaf->instance->transform, query->p);
+    sub.outer = leaf;
+    query_world(&sub);
+    query->count = sub.count;
+}
+
+static void query_prim(PointQuery *query, const Prim *prim) {
+    const Leaf *leaf = &prim->leaf;
+    if (leaf->instance) {
+        query_instance(query, leaf);
+        return;
+    }
+    if (!shape_inside(&prim->shape, query->p) ||
+        !csg_fills(&query->world->csg, leaf->node, query->p))
+        return;
+    bool direct = !query->outer;
+    insert_place(query, (WorldPlace){.object = direct ? 0 : leaf->position,
+                                     .instance = direct ? leaf->position : query->outer->position});
 }
 
 static bool query_item(void *context, uint32_t place) {
     PointQuery *query = context;
     const Prim *prim = &query->world->prims[place];
-    if (shape_inside_bounded(&prim->shape))
+    const Instance *instance = prim->leaf.instance;
+    if (instance ? instance->world->boundless_count == 0 : shape_inside_bounded(&prim->shape))
         query_prim(query, prim);
     return false;
 }
 
-uint32_t world_containing(const World *world, Vec3 p, uint32_t *objects, uint32_t max) {
-    PointQuery query = {.world = world, .p = p, .found = objects, .max = max};
+static void query_world(PointQuery *query) {
+    const World *world = query->world;
+    for (uint32_t i = 0; i < world->boundless_count; i++)
+        if (box_has(&world->boundless_boxes[i], query->p))
+            query_prim(query, &world->prims[world->boundless[i]]);
+    bvh_walk_point(&world->tree, query->p, query_item, query);
+}
+
+uint32_t world_containing(const World *world, Vec3 p, WorldPlace *places, uint32_t max) {
+    PointQuery query = {.world = world, .p = p, .found = places, .max = max};
     if (max == 0)
         return 0;
-    for (uint32_t i = 0; i < world->boundless_count; i++)
-        if (box_has(&world->boundless_boxes[i], p))
-            query_prim(&query, &world->prims[world->boundless[i]]);
-    bvh_walk_point(&world->tree, p, query_item, &query);
-    for (uint32_t i = 0; i < query.count; i++)
-        objects[i] = world->leaves[objects[i]].object;
+    query_world(&query);
+    for (uint32_t i = 0; i < query.count; i++) {
+        const Leaf *outer = &world->leaves[places[i].instance];
+        const Instance *instance = outer->instance;
+        uint32_t object = instance ? instance->world->leaves[places[i].object].object : NO_INDEX;
+        places[i].object = instance ? object : outer->object;
+        places[i].instance = instance ? outer->object : NO_INDEX;
+    }
     return query.count;
 }
 
@@ -81,9 +118,11 @@ typedef struct {
     // comes to an object when nothing has been met before the box, even if it then meets it before
     // the box: so the farther of the two is what decides.
     double t, depth;
+    double slack; // how far off t may be, of a hit in an instance; else 0
     uint32_t rank;
     const Leaf *leaf;
-    const Prim *prim; // NULL: the hit is on a patch
+    const Prim *prim;  // NULL: the hit is on a patch
+    const Prim *outer; // the instance that leaf is in; NULL: none
     ShapeHit hit;
     PatchHit patch;
 } RayQuery;
@@ -104,8 +143,10 @@ static bool is_admitted(RayQuery *query, const Leaf *leaf) {
 }
 
 static bool comes_first(const RayQuery *query, double t, double depth, const Leaf *leaf) {
-    if (t != query->t)
+    if (fabs(t - query->t) > query->slack)
         return t < query->t;
+    if (query->outer)
+        return leaf->rank < query->rank;
     return depth < query->depth || (depth == query->depth && leaf->rank < query->rank);
 }
 
@@ -126,9 +167,14 @@ static bool counts(RayQuery *query, double depth, double t_min, const Leaf *leaf
 static void keep(RayQuery *query, double t, double depth, const Leaf *leaf) {
     query->t = t;
     query->depth = depth;
+    query->slack = 0.0;
     query->rank = leaf->rank;
     query->leaf = leaf;
+    query->outer = NULL;
 }
+
+// Up to where hits are of interest.
+static double limit_of(const RayQuery *query) { return query->t + query->slack; }
 
 // Of several hits of one primitive at the same depth the last one counts.
 typedef struct {
@@ -151,12 +197,12 @@ static double try_solid_hit(void *context, const ShapeHit *hit) {
         query->prim = at->prim;
         query->hit = *hit;
     }
-    return query->any && query->leaf ? -INFINITY : query->t;
+    return query->any && query->leaf ? -INFINITY : limit_of(query);
 }
 
 static void try_solid(RayQuery *query, const Prim *prim) {
     PrimQuery at = {query, prim, false};
-    shape_visit(&prim->shape, query->ray, query->t_min, query->t, try_solid_hit, &at);
+    shape_visit(&prim->shape, query->ray, query->t_min, limit_of(query), try_solid_hit, &at);
     query->stats->shape_tests++;
     query->stats->shape_hits += at.any;
 }
@@ -175,6 +221,8 @@ static inline void try_plane(RayQuery *query, const Prim *prim) {
     query->hit = (ShapeHit){.t = depth};
 }
 
+static void try_instance(RayQuery *query, const Prim *prim);
+
 static inline void try_prim(RayQuery *query, const Prim *prim) {
     if (!(prim->leaf.mask & query->kind))
         return;
@@ -184,6 +232,10 @@ static inline void try_prim(RayQuery *query, const Prim *prim) {
     }
     if (prim->shape.kind == SHAPE_SOLID) {
         try_solid(query, prim);
+        return;
+    }
+    if (prim->shape.kind == SHAPE_NONE) {
+        try_instance(query, prim);
         return;
     }
     ShapeHit hits[SHAPE_MAX_HITS];
@@ -203,7 +255,7 @@ static inline void try_prim(RayQuery *query, const Prim *prim) {
 static inline double try_item(void *context, uint32_t place) {
     RayQuery *query = context;
     try_prim(query, &query->world->prims[place]);
-    return query->any && query->leaf ? -INFINITY : query->t;
+    return query->any && query->leaf ? -INFINITY : limit_of(query);
 }
 
 static void try_patch_hit(void *context, const PatchHit *hit) {
@@ -219,7 +271,7 @@ static void try_patch_hit(void *context, const PatchHit *hit) {
 
 // Hits at the best depth so far are still wanted: an earlier object may have it.
 static double reach(const RayQuery *query) {
-    return query->leaf ? nextafter(query->t, INFINITY) : query->t;
+    return query->leaf ? nextafter(limit_of(query), INFINITY) : query->t;
 }
 
 static void try_patches(RayQuery *query) {
@@ -245,7 +297,62 @@ static void try_prims(RayQuery *query) {
             try_prim(query, prim);
     }
     if (world->tree_count > 0 && !(query->any && query->leaf))
-        bvh_walk(&world->tree, query->ray, fmax(query->t_min, 0.0), query->t, try_item, query);
+        bvh_walk(&world->tree, query->ray, fmax(query->t_min, 0.0), limit_of(query), try_item,
+                 query);
+}
+
+// The ray in the definition's space, of unit direction; false: nothing can be asked of it.
+static bool enter_instance(const Instance *instance, const Ray *ray, LocalRay *local) {
+    return shape_local_ray(instance->transform, ray, local) && vec_is_finite(local->ray.org);
+}
+
+// A definition is asked for its own nearest hit, up to the nearest so far. Depths that differ by
+// less than the way into its space may are the same: there the order of the source decides, as
+// it does for all other objects.
+static void try_instance(RayQuery *query, const Prim *prim) {
+    const Instance *instance = prim->leaf.instance;
+    LocalRay local;
+    if (!enter_instance(instance, query->ray, &local))
+        return;
+    double limit = limit_of(query), slack = instance->slack[1];
+    const Vec3 *org = &query->ray->org;
+    double place = fabs(org->x) + fabs(org->y) + fabs(org->z);
+    slack += instance->slack[0] * (place + fmin(limit, 1e3 * SHAPE_FARTHEST));
+    RayQuery sub;
+    sub.world = instance->world;
+    sub.ray = &local.ray;
+    sub.t_min = query->t_min * local.scale;
+    sub.patch_min = query->patch_min * local.scale;
+    sub.kind = query->kind;
+    sub.any = query->any;
+    sub.stats = query->stats;
+    sub.gate = NO_INDEX;
+    sub.admits = true;
+    sub.entry = -INFINITY;
+    sub.t = sub.depth = (limit + slack) * local.scale;
+    sub.slack = 0.0;
+    sub.rank = 0;
+    sub.leaf = NULL;
+    sub.prim = sub.outer = NULL;
+    try_prims(&sub);
+    if (!(sub.any && sub.leaf))
+        try_patches(&sub);
+    if (!sub.leaf)
+        return;
+    double t = sub.depth / local.scale;
+    uint32_t rank = prim->leaf.rank + sub.rank;
+    slack = fmax(slack, query->slack);
+    bool same = query->leaf && fabs(t - query->t) <= slack;
+    if (same ? rank > query->rank : t > query->t)
+        return;
+    query->t = query->depth = t;
+    query->slack = slack;
+    query->rank = rank;
+    query->leaf = sub.leaf;
+    query->prim = sub.prim;
+    query->outer = prim;
+    query->hit = sub.hit;
+    query->patch = sub.patch;
 }
 
 // The same ray with a unit direction; the old one's length, 0 if nothing can be asked of it (no
@@ -319,9 +426,51 @@ static inline void query_start(RayQuery *query, const World *world, const Ray *u
     query->admits = true;
     query->entry = -INFINITY;
     query->t = query->depth = t_max * length;
+    query->slack = 0.0;
     query->rank = 0;
     query->leaf = NULL;
-    query->prim = NULL;
+    query->prim = query->outer = NULL;
+}
+
+// What is known of the query's hit on a primitive, in the space of the world it is in.
+static void describe_prim(const RayQuery *query, bool without_uv, WorldHit *hit) {
+    const Shape *shape = &query->prim->shape;
+    hit->texture_count = shape_textures(shape, hit->p, &query->hit, hit->textures);
+    Vec2 uv = {0, 0};
+    if (!without_uv)
+        uv = shape_uv(shape, hit->p, &query->hit);
+    hit->normal = shape_normal(shape, hit->p, &query->hit);
+    hit->u = uv.u, hit->v = uv.v;
+    hit->bound = hit->reach = 0.0;
+}
+
+static void describe_patch(const RayQuery *query, WorldHit *hit) {
+    const PatchShape *patch = &query->world->scene->objects[hit->object].shape.patch;
+    Vec2 uv = patch_uv(patch, query->patch.u, query->patch.v);
+    hit->texture_count = 0;
+    hit->normal = query->patch.normal;
+    hit->u = uv.u, hit->v = uv.v;
+    hit->bound = query->patch.bound;
+    hit->reach = query->patch.bound + query->leaf->tolerance;
+}
+
+// The same where an instance shows it.
+static void describe_moved(const RayQuery *query, bool without_uv, WorldHit *hit) {
+    const Instance *instance = query->outer->leaf.instance;
+    const Vec3 p = hit->p;
+    hit->instance = query->outer->leaf.object;
+    hit->p = shape_local_point(instance->transform, p);
+    if (query->prim)
+        describe_prim(query, without_uv, hit);
+    else
+        describe_patch(query, hit);
+    hit->normal = shape_world_normal(instance->transform, hit->normal, hit->normal);
+    hit->bound *= instance->stretch;
+    if (query->prim && !shape_maps_uv(&query->prim->shape) && !without_uv)
+        hit->u = p.x, hit->v = p.y;
+    if (!query->prim)
+        hit->reach = hit->reach * instance->stretch + query->slack;
+    hit->p = p;
 }
 
 bool world_nearest(const World *world, const Ray *ray, WorldNear near, double t_max, RayKind kind,
@@ -346,23 +495,13 @@ bool world_nearest(const World *world, const Ray *ray, WorldNear near, double t_
     hit->t = query.depth / length;
     hit->p = vec_madd(unit.org, query.depth, unit.dir);
     hit->object = query.leaf->object;
-    hit->texture_count = 0;
-    if (query.prim) {
-        hit->texture_count = shape_textures(&query.prim->shape, hit->p, &query.hit, hit->textures);
-        Vec2 uv = {0, 0};
-        if (!world->without_uv)
-            uv = shape_uv(&query.prim->shape, hit->p, &query.hit);
-        hit->normal = shape_normal(&query.prim->shape, hit->p, &query.hit);
-        hit->u = uv.u, hit->v = uv.v;
-        hit->bound = hit->reach = 0.0;
-    } else {
-        const PatchShape *patch = &world->scene->objects[hit->object].shape.patch;
-        Vec2 uv = patch_uv(patch, query.patch.u, query.patch.v);
-        hit->normal = query.patch.normal;
-        hit->u = uv.u, hit->v = uv.v;
-        hit->bound = query.patch.bound;
-        hit->reach = query.patch.bound + query.leaf->tolerance;
-    }
+    hit->instance = NO_INDEX;
+    if (query.outer)
+        describe_moved(&query, world->without_uv, hit);
+    else if (query.prim)
+        describe_prim(&query, world->without_uv, hit);
+    else
+        describe_patch(&query, hit);
     return true;
 }
 
@@ -399,7 +538,7 @@ bool world_blocked(const World *world, const Ray *ray, WorldNear near, double t_
         return true;
     try_prims(&query);
     if (query.leaf)
-        *last = (uint32_t)(query.prim - world->prims);
+        *last = (uint32_t)((query.outer ? query.outer : query.prim) - world->prims);
     if (!query.leaf && world->filtered)
         patchset_all(world->filtered, &unit, patch_min, query.t, RAY_SHADOW, &query.stats->patch,
                      try_patch_hit, &query);

@@ -30,6 +30,7 @@ typedef struct {
     double bound;    // patches: the hit's proven bound, else 0
     double reach;    // patches: how far apart this hit and another one of the same place may be
     uint32_t object; // index in scene->objects, a leaf
+    uint32_t instance; // the instance that shows it, an object too, or NO_INDEX
     // The primitive's own textures; none: the object's count.
     uint32_t texture_count;
     ShapeTexture textures[SHAPE_MAX_TEXTURES];
@@ -78,7 +79,10 @@ bool world_occluded(const World *world, const Ray *ray, double t_min, double t_m
 bool world_inside(const World *world, uint32_t object, Vec3 p);
 // Every object (leaf, not hollow... all) that contains p, in source order; up to max; returns the
 // count.
-uint32_t world_containing(const World *world, Vec3 p, uint32_t *objects, uint32_t max);
+typedef struct {
+    uint32_t object, instance; // as in a hit
+} WorldPlace;
+uint32_t world_containing(const World *world, Vec3 p, WorldPlace *places, uint32_t max);
 uint64_t world_memory(const World *world); // bytes
 
 #endif

@@ -8,20 +8,32 @@
 #include "render/world.h"
 #include "shape/shape.h"
 
-// What patches and primitives have in common. Leaves are numbered in the order of the source.
+// A definition's world moved to where the instance is.
+typedef struct {
+    const World *world;         // in its own space
+    const Transform *transform; // NULL: it stays where it is
+    double stretch;             // no length grows by more
+    // Depths of its hits are off by slack[0] (|origin| + depth) + slack[1] at most for the way
+    // there and back: hits that are no farther apart are in the same place.
+    double slack[2];
+} Instance;
+
+// What patches, primitives and instances have in common. Leaves are numbered in the order of the
+// source.
 typedef struct {
     uint32_t object;
     uint32_t position;
-    uint32_t rank;    // which of two hits at the same depth counts: the lower
-    uint32_t mask;    // RayKind bits of the rays that see it
-    uint32_t node;    // in the Csg; NO_INDEX: an unhidden patch
-    uint32_t gate;    // in the Csg: what bounds it, or NO_INDEX
-    bool watched;     // its hits may be hidden
-    double tolerance; // of a patch's hits, scene units
+    uint32_t rank;            // which of two hits at the same depth counts: the lower
+    uint32_t mask;            // RayKind bits of the rays that see it
+    uint32_t node;            // in the Csg; NO_INDEX: an unhidden patch
+    uint32_t gate;            // in the Csg: what bounds it, or NO_INDEX
+    bool watched;             // its hits may be hidden
+    double tolerance;         // of a patch's hits, scene units
+    const Instance *instance; // it is one: `object` is the instance
 } Leaf;
 
 typedef struct {
-    Shape shape;
+    Shape shape; // SHAPE_NONE: an instance
     Leaf leaf;
 } Prim;
 
@@ -40,11 +52,15 @@ struct World {
     uint32_t *boundless;
     Box *boundless_boxes; // hold what they contain where the trees around let it be
     uint32_t boundless_count;
-    PatchSet *patches;  // that nothing hides; id: leaf position
-    bool exact;         // their hits carry bounds: not POV-Ray's triangles
-    double size, unit;  // diameter of all patches; see world_unit()
-    PatchSet *filtered; // below a tree that may hide their hits
-    bool without_uv;    // see world_without_uv()
+    PatchSet *patches;   // that nothing hides; id: leaf position
+    bool exact;          // their hits carry bounds: not POV-Ray's triangles
+    double size, unit;   // diameter of all patches; see world_unit()
+    PatchSet *filtered;  // below a tree that may hide their hits
+    bool without_uv;     // see world_without_uv()
+    World **definitions; // of the scene; their csg is this one's
+    uint32_t definition_count;
+    bool inner; // it is one of them
+    Box bounds; // of all that can be seen
 };
 
 #endif

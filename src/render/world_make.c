@@ -15,6 +15,8 @@ static const double INFINITE_VOLUME = 2e10;
 // Fewer objects than this, lights counted, are tried in the order of the source by POV-Ray.
 enum { BOUNDING_THRESHOLD = 3 };
 
+static const Box EVERYWHERE = {{-INFINITY, -INFINITY, -INFINITY}, {INFINITY, INFINITY, INFINITY}};
+
 // What POV-Ray has as one object: the leaves from `first` to that of the next frame.
 typedef struct {
     uint32_t object, first;
@@ -55,12 +57,46 @@ static uint32_t blind_to(const Scene *scene, const Object *object, const Place *
     }
 }
 
+// The largest length that the unit sphere has after rows 0 to 2 of m, or more.
+static double stretch_of(const double m[4][4]) {
+    double square = 0.0;
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            square += m[i][j] * m[i][j];
+    return sqrt(square);
+}
+
+// A ray's origin and direction are taken into the definition's space, and a depth back. Each
+// number is a sum of four products: 8 roundings of 2^-53 of the largest of them, which in the world
+// is as much larger as the way back stretches.
+static void add_instance(Maker *maker, uint32_t index, uint32_t position) {
+    World *world = maker->world;
+    const Object *object = &world->scene->objects[index];
+    Instance *instance = ARENA_NEW(world->arena, Instance);
+    instance->world = world->definitions[object->shape.instance.definition];
+    instance->stretch = 1.0;
+    if (object->has_transform) {
+        const Transform *t = instance->transform = &object->transform;
+        const double *away = t->inv[3];
+        instance->stretch = stretch_of(t->m);
+        double unit = 8.0 * 0x1p-53 * instance->stretch;
+        instance->slack[0] = unit * stretch_of(t->inv);
+        instance->slack[1] = unit * (fabs(away[0]) + fabs(away[1]) + fabs(away[2]));
+    }
+    array_push(&maker->leaves, ((Leaf){.object = index,
+                                       .position = position,
+                                       .mask = RAY_ALL,
+                                       .node = NO_INDEX,
+                                       .gate = NO_INDEX,
+                                       .instance = instance}));
+}
+
 static void add_object(Maker *maker, uint32_t index, Place place) {
     World *world = maker->world;
     const Object *object = &world->scene->objects[index];
     uint32_t first = (uint32_t)maker->leaves.count;
     place.blind |= blind_to(world->scene, object, &place);
-    if (place.frame == NO_INDEX && is_frame(object)) {
+    if (place.frame == NO_INDEX && (is_frame(object) || object->type == OBJECT_INSTANCE)) {
         place.frame = index;
         array_push(&maker->frames, ((Frame){index, first}));
     }
@@ -68,6 +104,10 @@ static void add_object(Maker *maker, uint32_t index, Place place) {
         place.parent = index;
         for (uint32_t i = 0; i < object->shape.children.count; i++)
             add_object(maker, object->shape.children.items[i], place);
+        return;
+    }
+    if (object->type == OBJECT_INSTANCE) {
+        add_instance(maker, index, first);
         return;
     }
     uint32_t node = world->csg.of_object[index];
@@ -81,7 +121,22 @@ static void add_object(Maker *maker, uint32_t index, Place place) {
     array_push(&maker->leaves, leaf);
 }
 
+static Box moved_box(const Transform *t, Box box) {
+    if (!t || !(box.low.x <= box.high.x))
+        return box;
+    if (!vec_is_finite(box.low) || !vec_is_finite(box.high))
+        return EVERYWHERE;
+    Box out = box_empty();
+    for (int corner = 0; corner < 8; corner++)
+        out = box_extend(out, transform_point(t, vec3(corner & 1 ? box.high.x : box.low.x,
+                                                      corner & 2 ? box.high.y : box.low.y,
+                                                      corner & 4 ? box.high.z : box.low.z)));
+    return out;
+}
+
 static Box bounds_of(const World *world, const Leaf *leaf) {
+    if (leaf->instance)
+        return moved_box(leaf->instance->transform, leaf->instance->world->bounds);
     if (leaf->node != NO_INDEX)
         return world->csg.nodes[leaf->node].reach;
     const PatchShape *patch = &world->scene->objects[leaf->object].shape.patch;
@@ -106,7 +161,9 @@ static void rank_tree(World *world, uint32_t index, bool reversed, uint32_t *of_
                       uint32_t *next) {
     const Object *object = &world->scene->objects[index];
     if (!object_is_tree(object)) {
-        of_object[index] = (*next)++;
+        bool instance = object->type == OBJECT_INSTANCE;
+        of_object[index] = *next;
+        *next += instance ? world->definitions[object->shape.instance.definition]->leaf_count : 1;
         return;
     }
     const ObjectList *list = &object->shape.children;
@@ -115,10 +172,19 @@ static void rank_tree(World *world, uint32_t index, bool reversed, uint32_t *of_
                   has_stack(object) ? !reversed : reversed, of_object, next);
 }
 
-// Infinite objects come first at equal depth, then the order of the source.
+// All leaves, those of instances counted.
+static uint32_t rank_count(const World *world) {
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < world->leaf_count; i++)
+        count += world->leaves[i].instance ? world->leaves[i].instance->world->leaf_count : 1;
+    return count;
+}
+
+// Infinite objects come first at equal depth, then the order of the source. The leaves of an
+// instance follow its own rank.
 static void rank_leaves(World *world, const Maker *maker, const Box *boxes) {
     size_t frame_count = maker->frames.count;
-    uint32_t next = 0;
+    uint32_t next = 0, ranks = rank_count(world);
     Arena *scratch = arena_create();
     uint32_t *order = ARENA_ARRAY(scratch, uint32_t, world->scene->object_count);
     world->in_order = frame_count + world->scene->light_count >= BOUNDING_THRESHOLD;
@@ -130,11 +196,10 @@ static void rank_leaves(World *world, const Maker *maker, const Box *boxes) {
             box = box_union(box, boxes[i]);
         Vec3 size = vec_sub(box.high, box.low);
         bool infinite = !is_bounded(&box) || size.x * size.y * size.z > INFINITE_VOLUME;
-        bool later = world->in_order && !infinite;
+        bool later = world->in_order && !infinite && !world->inner;
         rank_tree(world, maker->frames.items[f].object, true, order, &next);
         for (uint32_t i = first; i < end; i++)
-            world->leaves[i].rank =
-                order[world->leaves[i].object] + (later ? world->leaf_count : 0);
+            world->leaves[i].rank = order[world->leaves[i].object] + (later ? ranks : 0);
     }
     arena_destroy(scratch);
 }
@@ -178,6 +243,11 @@ static void measure_patches(World *world, PatchMethod method) {
         box = box_union(box, patchset_bounds(world->patches));
     if (world->filtered)
         box = box_union(box, patchset_bounds(world->filtered));
+    for (uint32_t i = 0; i < world->leaf_count; i++) {
+        const Instance *instance = world->leaves[i].instance;
+        if (instance && instance->world->size > 0.0)
+            box = box_union(box, moved_box(instance->transform, instance->world->bounds));
+    }
     bool any = box.low.x <= box.high.x;
     world->size = any ? vec_length(vec_sub(box.high, box.low)) : 0.0;
     world->exact = method != METHOD_FACETS && method != METHOD_TESSELLATION;
@@ -209,8 +279,11 @@ static void add_prims(World *world, const Box *boxes) {
     Box *tree_boxes = ARENA_ARRAY(scratch, Box, n);
     for (uint32_t i = 0; i < n; i++) {
         const Shape *shape = shape_of(world, i);
-        if (!shape || shape->kind == SHAPE_NONE || is_empty(&boxes[i]))
+        bool there = world->leaves[i].instance || (shape && shape->kind != SHAPE_NONE);
+        if (!there || is_empty(&boxes[i]))
             continue;
+        // Boxes of instances are rounded like points.
+        world->bounds = box_union(world->bounds, boxes[i]);
         if (is_bounded(&boxes[i]))
             tree_boxes[bounded] = boxes[i], order[bounded++] = i;
         else
@@ -228,6 +301,14 @@ static void add_prims(World *world, const Box *boxes) {
     for (uint32_t i = 0; i < count; i++) {
         uint32_t leaf = order[i < bounded ? world->tree.items[i] : i];
         const Shape *shape = shape_of(world, leaf);
+        if (!shape) {
+            world->prims[i] = (Prim){{.kind = SHAPE_NONE}, world->leaves[leaf]};
+            if (world->leaves[leaf].instance->world->boundless_count > 0) {
+                world->boundless_boxes[world->boundless_count] = EVERYWHERE;
+                world->boundless[world->boundless_count++] = i;
+            }
+            continue;
+        }
         world->prims[i] = (Prim){*shape, world->leaves[leaf]};
         bool in_tree = i < bounded && shape_inside_bounded(shape);
         if (shape_has_inside(shape) && !in_tree) {
@@ -239,27 +320,45 @@ static void add_prims(World *world, const Box *boxes) {
     arena_destroy(scratch);
 }
 
-World *world_create(const Scene *scene, const PatchSetOptions *patches) {
-    Arena *arena = arena_create(), *scratch = arena_create();
-    World *world = ARENA_NEW(arena, World);
-    world->arena = arena;
-    world->scene = scene;
-    world->csg = csg_create(scene, patches, arena);
+static void fill(World *world, const uint32_t *roots, uint32_t root_count,
+                 const PatchSetOptions *patches) {
+    Arena *scratch = arena_create();
     Maker maker = {.world = world};
-    for (uint32_t i = 0; i < scene->root_count; i++)
-        add_object(&maker, scene->roots[i], (Place){NO_INDEX, NO_INDEX, 0});
+    for (uint32_t i = 0; i < root_count; i++)
+        add_object(&maker, roots[i], (Place){NO_INDEX, NO_INDEX, 0});
     uint32_t n = world->leaf_count = (uint32_t)maker.leaves.count;
-    world->leaves = arena_copy(arena, maker.leaves.items, n * sizeof(Leaf));
+    world->leaves = arena_copy(world->arena, maker.leaves.items, n * sizeof(Leaf));
     Box *boxes = ARENA_ARRAY(scratch, Box, n);
     for (uint32_t i = 0; i < n; i++)
         boxes[i] = bounds_of(world, &world->leaves[i]);
+    world->bounds = box_empty();
     rank_leaves(world, &maker, boxes);
     add_prims(world, boxes);
     add_patches(world, patches);
     measure_patches(world, patches->method);
+    if (world->size > 0.0)
+        for (uint32_t i = 0; i < n; i++)
+            if (world->scene->objects[world->leaves[i].object].type == OBJECT_PATCH)
+                world->bounds = box_union(world->bounds, boxes[i]);
     array_free(&maker.leaves);
     array_free(&maker.frames);
     arena_destroy(scratch);
+}
+
+World *world_create(const Scene *scene, const PatchSetOptions *patches) {
+    Arena *arena = arena_create();
+    World *world = ARENA_NEW(arena, World);
+    world->arena = arena;
+    world->scene = scene;
+    world->csg = csg_create(scene, patches, arena);
+    world->definitions = ARENA_ARRAY(arena, World *, scene->definition_count);
+    world->definition_count = scene->definition_count;
+    for (uint32_t i = 0; i < scene->definition_count; i++) {
+        World *part = world->definitions[i] = ARENA_NEW(arena, World);
+        *part = (World){.arena = arena, .scene = scene, .csg = world->csg, .inner = true};
+        fill(part, &scene->definitions[i], 1, patches);
+    }
+    fill(world, scene->roots, scene->root_count, patches);
     return world;
 }
 
@@ -269,23 +368,31 @@ void world_use_functions(const World *world, const FunctionPool *functions) {
 
 void world_without_uv(World *world) { world->without_uv = true; }
 
-void world_destroy(World *world) {
-    if (!world)
-        return;
+static void destroy_patches(World *world) {
     if (world->patches)
         patchset_destroy(world->patches);
     if (world->filtered)
         patchset_destroy(world->filtered);
+}
+
+static uint64_t patch_memory(const World *world) {
+    return (world->patches ? patchset_memory(world->patches) : 0) +
+           (world->filtered ? patchset_memory(world->filtered) : 0);
+}
+
+void world_destroy(World *world) {
+    if (!world)
+        return;
+    for (uint32_t i = 0; i < world->definition_count; i++)
+        destroy_patches(world->definitions[i]);
+    destroy_patches(world);
     csg_destroy(&world->csg);
     arena_destroy(world->arena);
 }
 
 uint64_t world_memory(const World *world) {
-    uint64_t bytes = arena_bytes(world->arena);
-    if (world->patches)
-        bytes += patchset_memory(world->patches);
-    if (world->filtered)
-        bytes += patchset_memory(world->filtered);
-    bytes += csg_memory(&world->csg);
+    uint64_t bytes = arena_bytes(world->arena) + patch_memory(world) + csg_memory(&world->csg);
+    for (uint32_t i = 0; i < world->definition_count; i++)
+        bytes += patch_memory(world->definitions[i]);
     return bytes;
 }

@@ -140,6 +140,11 @@ Vec2 shape_uv(const Shape *shape, Vec3 p, const ShapeHit *hit) {
     }
 }
 
+bool shape_maps_uv(const Shape *shape) {
+    return shape->kind == SHAPE_SPHERE || shape->kind == SHAPE_BOX || shape->kind == SHAPE_TORUS ||
+           (shape->kind == SHAPE_SOLID && shape->as.solid.ops->uv);
+}
+
 uint32_t shape_textures(const Shape *shape, Vec3 p, const ShapeHit *hit,
                         ShapeTexture out[SHAPE_MAX_TEXTURES]) {
     return shape->kind == SHAPE_SOLID ? solid_textures(shape, p, hit, out) : 0;

@@ -124,6 +124,7 @@ Vec3 shape_normal(const Shape *shape, Vec3 p, const ShapeHit *hit);
 // Texture coordinates at p. Sphere, box and torus have a mapping of their own; for the others
 // POV-Ray takes the world's x and y.
 Vec2 shape_uv(const Shape *shape, Vec3 p, const ShapeHit *hit);
+bool shape_maps_uv(const Shape *shape);        // it has a mapping of its own
 bool shape_inside(const Shape *shape, Vec3 p); // `inverse` applied
 // False for triangles, SHAPE_NONE and the like: no point is ever inside.
 bool shape_has_inside(const Shape *shape);

@@ -65,8 +65,9 @@ static inline Newton newton_sharpen(Walk *walk, const Piece *piece, double u, do
     const double u0 = larger(rect.u0 - hair_u, 0.0), u1 = smaller(rect.u1 + hair_u, 1.0);
     const double v0 = larger(rect.v0 - hair_v, 0.0), v1 = smaller(rect.v1 + hair_v, 1.0);
     const double muu = (double)piece->muu, muv = (double)piece->muv, mvv = (double)piece->mvv;
-    // What rounding leaves is as good as can be had.
-    const double tolerance = larger(ray->patch->tolerance, 2.0 * ray->error);
+    // What rounding leaves is as good as can be had. On the patch's own border nothing more is
+    // allowed: else a patch would be wider than it is by its tolerance.
+    const double least = 2.0 * ray->error, tolerance = larger(ray->patch->tolerance, least);
     for (int step = 0; step < NEWTON_STEPS; step++) {
         query->stats.newton++;
         Vec3 s[3];
@@ -82,7 +83,9 @@ static inline Newton newton_sharpen(Walk *walk, const Piece *piece, double u, do
         double rest = 0.5 * (turn_u * fabs(a) + turn_v * fabs(b));
         u = clamp(u + a, u0, u1);
         v = clamp(v + b, v0, v1);
-        if (!(rest <= tolerance))
+        const bool border = u <= 0.0 || u >= 1.0 || v <= 0.0 || v >= 1.0;
+        const double limit = border ? least : tolerance;
+        if (!(rest <= limit))
             continue;
         Vec3 off = vec_sub(vec_sub(r, vec_scale(su, a)), vec_scale(sv, b));
         double depth = -vec_dot(off, ray->dir);
@@ -92,9 +95,9 @@ static inline Newton newton_sharpen(Walk *walk, const Piece *piece, double u, do
         // Does the correction turn the normal? Then look there. Where it goes nowhere (a ray beside
         // the patch's edge) the turn is 0.
         double turn = turn_u * length1(sv) + turn_v * length1(su);
-        if (!(distance <= tolerance && turn <= NEWTON_NORMAL_ERROR * area)) {
+        if (!(distance <= limit && turn <= NEWTON_NORMAL_ERROR * area)) {
             // A step that small goes nowhere else.
-            if (distance > 4.0 * tolerance)
+            if (distance > 4.0 * limit)
                 return NEWTON_LOST;
             continue;
         }

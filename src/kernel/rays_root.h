@@ -181,7 +181,8 @@ static inline unsigned rays_sharpen(RayPacket *p, int i, unsigned bits, uint32_t
     const WD v0 = wd_all(larger(rect.v0 - hair_v, 0.0)),
              v1 = wd_all(smaller(rect.v1 + hair_v, 1.0));
     const double muu = (double)piece->muu, muv = (double)piece->muv, mvv = (double)piece->mvv;
-    const WD tolerance = wd_max(wd_all(patch->tolerance), 2.0 * error);
+    const WD least = 2.0 * error, tolerance = wd_max(wd_all(patch->tolerance), least);
+    const WD zero = wd_all(0.0), one = wd_all(1.0);
     unsigned lost = 0;
     for (int step = 0; step < NEWTON_STEPS && bits; step++) {
         p->stats->newton += (uint64_t)__builtin_popcount(bits);
@@ -199,7 +200,9 @@ static inline unsigned rays_sharpen(RayPacket *p, int i, unsigned bits, uint32_t
         WD rest = 0.5 * (turn_u * wd_abs(a) + turn_v * wd_abs(b));
         u = wd_clamp(u + a, u0, u1);
         v = wd_clamp(v + b, v0, v1);
-        unsigned ends = bits & wd_le(rest, tolerance);
+        unsigned border = wd_le(u, zero) | wd_le(one, u) | wd_le(v, zero) | wd_le(one, v);
+        WD limit = wd_pick(border, least, tolerance);
+        unsigned ends = bits & wd_le(rest, limit);
         if (!ends)
             continue;
         Wide3 off = wide3_sub(wide3_sub(r, wide3_scale(su, a)), wide3_scale(sv, b));
@@ -207,8 +210,8 @@ static inline unsigned rays_sharpen(RayPacket *p, int i, unsigned bits, uint32_t
         Wide3 across = wide3_madd(off, depth, dir), n = wide3_cross(su, sv);
         WD distance = wide3_length1(across) + rest + error, area = wide3_length(n);
         WD turn = turn_u * wide3_length1(sv) + turn_v * wide3_length1(su);
-        unsigned good = ends & wd_le(distance, tolerance) & wd_le(turn, NEWTON_NORMAL_ERROR * area);
-        unsigned nowhere = ends & ~good & wd_lt(4.0 * tolerance, distance);
+        unsigned good = ends & wd_le(distance, limit) & wd_le(turn, NEWTON_NORMAL_ERROR * area);
+        unsigned nowhere = ends & ~good & wd_lt(4.0 * limit, distance);
         lost |= nowhere;
         bits &= ~nowhere;
         if (!good)

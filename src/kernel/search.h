@@ -143,8 +143,8 @@ static bool search_qi(Walk *walk, BezierRect rect) {
 }
 
 // Finds every crossing in rect, a part of the piece's rectangle, and gives it to walk_take; false
-// to end the walk. Crossings outside the patch by less than its tolerance are taken too, with (u,v)
-// on the patch's edge; crossings on the edge of rect may be found by the neighbour as well.
+// to end the walk. Crossings outside the patch by what rounding can do are taken too, with (u,v) on
+// the patch's edge; crossings on the edge of rect may be found by the neighbour as well.
 static bool search_rect(Walk *walk, const Piece *piece, BezierRect rect) {
     const PatchRay *ray = &walk->ray;
     Query *query = walk->query;

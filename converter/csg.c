@@ -18,6 +18,7 @@ void parse_csg_data(Converter *cv, ObjectNode *object) {
             break;
         if (object->keyword == KW_difference && count > 0 && !child->surface && !child->light)
             object_invert(cv, child);
+        object->textured = object->textured || child->textured;
         object_add_child(cv, object, child);
         count++;
     }

@@ -97,8 +97,9 @@ static uint32_t use_shared(Emitter *e, SharedInterior *shared) {
 typedef struct {
     const TextureNode *texture, *interior_texture;
     SharedInterior *interior; // NULL at top level
-    const Loc *cutaway;       // cutaway_textures around
-    bool textured;            // texture is not the default one
+    bool cutaway;             // cutaway_textures around
+    bool textured;            // texture has come down; else POV-Ray has none so far
+    bool cuts;                // what is right below may stay without a texture
     bool body;                // of clipped_by and the like: only its shape counts
     bool nested;              // in something that is one object to POV-Ray
     bool uv_mapping, no_shadow, no_image, no_reflection;
@@ -127,8 +128,10 @@ static Inherited inherit(const ObjectNode *node, const Inherited *from) {
     const Object *object = &node->object;
     Inherited own = *from;
     own.texture = node->texture ? node->texture : from->texture;
-    own.textured = node->texture || from->textured;
-    own.cutaway = node->cutaway ? node->cutaway : from->cutaway;
+    bool by_default = !node->textured && !from->cuts;
+    own.textured = node->texture || from->textured || by_default;
+    own.cutaway = node->cutaway || from->cutaway;
+    own.cuts = own.cutaway && object->type == OBJECT_INTERSECTION;
     own.interior_texture = node->interior_texture ? node->interior_texture : from->interior_texture;
     bool takes_uv = !node->texture || !node->interior_texture;
     own.uv_mapping = object->uv_mapping || (from->uv_mapping && takes_uv);
@@ -285,38 +288,12 @@ static void emit_bounds(Emitter *e, const ObjectNode *node, const Inherited *fro
 
 // ---- cutaway_textures
 
-// The first texture in the tree, NULL without one; *mixed: there are others.
-static const TextureNode *find_texture(const ObjectNode *node, bool *mixed) {
-    if (node->texture)
-        return node->texture;
-    const TextureNode *found = NULL;
-    for (const ObjectNode *child = node->first; child; child = child->next) {
-        const TextureNode *more = find_texture(child, mixed);
-        *mixed = *mixed || (found && more && more != found);
-        found = found ? found : more;
-    }
-    return found;
-}
+// Does POV-Ray ask only its parts for their textures?
+static bool asks_nobody(ObjectType type) { return type == OBJECT_BLOB || type == OBJECT_MESH; }
 
-// A cut without a texture takes that of the children around it: of a difference only the first
-// counts (facts: rendering 8). Where they have one texture, that is known here.
-static void cut_away(Emitter *e, const ObjectNode *node, Inherited *own) {
-    if (!own->cutaway || own->textured || node->object.type != OBJECT_INTERSECTION)
-        return;
-    bool mixed = false;
-    const TextureNode *texture = NULL;
-    if (node->keyword == KW_difference && node->first)
-        texture = find_texture(node->first, &mixed);
-    if (!texture)
-        texture = find_texture(node, &mixed);
-    if (!texture)
-        return;
-    if (mixed)
-        emit_gap(e, own->cutaway,
-                 "cutaway_textures of several textures is not modelled: cuts show the first");
-    own->texture = texture;
-    own->textured = true;
-}
+// Has POV-Ray no texture for it, not even the default one? It puts that on what it takes for
+// untextured where it stands, but not right below an intersection with cutaway_textures.
+static bool is_bare(const Inherited *own) { return own->cutaway && !own->textured; }
 
 // ---- trees
 
@@ -332,8 +309,10 @@ static bool throws_none(const Emitter *e, const Object *tree) {
 static uint32_t emit_tree(Emitter *e, const ObjectNode *node, const Inherited *from,
                           Inherited *own) {
     own->nested = from->nested || !is_split(node);
-    cut_away(e, node, own);
-    SharedInterior shared = {.node = node->interior, .texture = own->texture, .index = NO_INDEX};
+    if (own->nested && !from->nested)
+        emit_cut_gap(e, node);
+    SharedInterior shared = {
+        .node = node->interior, .texture = is_bare(own) ? NULL : own->texture, .index = NO_INDEX};
     if (node->interior || !own->interior)
         own->interior = &shared;
     uint32_t count = 0;
@@ -355,6 +334,7 @@ static uint32_t emit_tree(Emitter *e, const ObjectNode *node, const Inherited *f
     emit_bounds(e, node, from, &object);
     bool union_alone = object.type == OBJECT_UNION && own->nested && !from->nested;
     object.whole = union_alone && !object.clips.count;
+    object.difference = node->difference;
     object.no_shadow = object.no_shadow || (union_alone && throws_none(e, &object));
     if (patch_solid_is_meant(e->cv, node)) {
         object.solid = patch_solid_is_closed(node);
@@ -374,16 +354,20 @@ static uint32_t emit_leaf(Emitter *e, const ObjectNode *node, const Inherited *f
     emit_solid(e, node, own->body, &object);
     if (own->body)
         return store_object(e, &object);
-    object.texture = emit_texture(e, own->texture);
+    // Letters are children of a union to POV-Ray, which is an intersection when it is inverted.
+    bool bare = is_bare(own) && (object.type != OBJECT_TEXT || object.inverse);
+    const TextureNode *texture = bare ? NULL : own->texture;
+    object.texture = texture ? emit_texture(e, texture) : NO_INDEX;
+    object.cutaway = bare && !asks_nobody(object.type);
     if (own->interior_texture)
         object.interior_texture = emit_texture(e, own->interior_texture);
     if (node->interior)
         object.interior = store_interior(e, node->interior);
     else if (own->interior)
         object.interior = use_shared(e, own->interior);
-    else if (finish_has_interior(own->texture))
+    else if (finish_has_interior(texture))
         object.interior = store_interior(e, NULL);
-    take_from_finish(e, object.interior, own->texture);
+    take_from_finish(e, object.interior, texture);
     return store_object(e, &object);
 }
 

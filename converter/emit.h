@@ -101,6 +101,8 @@ uint64_t pattern_hash(uint64_t hash, const Pattern *pattern);
 
 // emit_solid.c: fills what the object keeps in the pools of the scene. bare: without textures.
 void emit_solid(Emitter *e, const ObjectNode *node, bool bare, Object *object);
+// emit_cut.c: says what cutaway_textures in the tree may lack.
+void emit_cut_gap(Emitter *e, const ObjectNode *tree);
 uint32_t emit_pigment(Emitter *e, const PatternNode *pigment);
 // A missing normal (NULL) bends nothing. no_bump_scale: the texture around has it.
 uint32_t emit_normal(Emitter *e, const PatternNode *normal, bool no_bump_scale);

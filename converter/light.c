@@ -237,6 +237,8 @@ void parse_light_items(Converter *cv, ObjectNode *object) {
                  !parse_rest(cv, object->light, token) && !parse_photons_modifier(cv))
             break;
     }
+    if (object->light->looks_like)
+        object->textured = object->light->looks_like->textured;
     const AreaLight *area = &object->light->light.area;
     if (area->circular &&
         (!object->light->light.has_area || area->size[0] < 2 || area->size[1] < 2)) {

@@ -79,6 +79,9 @@ static void keep_mesh(Converter *cv, MeshReader *r, ObjectNode *object) {
 #undef KEEP
     object->texture_count = (uint32_t)r->textures.count;
     object->has_textures = r->textures.count > 0;
+    object->textured = true;
+    for (uint32_t i = 0; i < mesh->face_count; i++)
+        object->textured = object->textured && mesh->faces[i].texture[0] != NO_INDEX;
     object->mesh = mesh;
     object->surface = !mesh->has_inside;
     array_free(&r->points);

@@ -222,7 +222,7 @@ static bool parse_bound(Converter *cv, ObjectNode *node) {
 // ---- textures
 // ------------------------------------------------------------------------------------------
 
-static bool parse_surface(Converter *cv, ObjectNode *node) {
+static bool parse_texture_or_interior(Converter *cv, ObjectNode *node) {
     const Token *token = peek_token(cv);
     switch (token->code) {
     case KW_texture:
@@ -250,6 +250,13 @@ static bool parse_surface(Converter *cv, ObjectNode *node) {
     default:
         return parse_partial_texture(cv, &node->texture);
     }
+}
+
+static bool parse_surface(Converter *cv, ObjectNode *node) {
+    const TextureNode *before = node->texture;
+    bool any = parse_texture_or_interior(cv, node);
+    node->textured = node->textured || node->texture != before;
+    return any;
 }
 
 // In version 1 an object's colour is what its pigment shows at low quality.

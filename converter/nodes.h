@@ -296,6 +296,9 @@ struct ObjectNode {
     ObjectNode *bounds, *clips;
     const Loc *bound_loc, *clip_loc;
     const Loc *cutaway; // of cutaway_textures
+    // What POV-Ray takes for textured, in it or below, and for a difference: it forgets both of a
+    // CSG that is inverted.
+    bool textured, difference;
     bool global_lights; // of a light_group
     // Of the parts of a blob (NULL: it has none of its own), or of a mesh's faces.
     const TextureNode **textures;

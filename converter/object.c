@@ -181,6 +181,7 @@ static void invert_csg(Converter *cv, ObjectNode *object) {
     for (ObjectNode *child = object->first; child; child = child->next)
         if (!child->surface && !child->light)
             object_invert(cv, child);
+    object->textured = object->difference = false;
     object->keyword = becomes_merge ? KW_merge : KW_intersection;
     object->object.type = becomes_merge ? OBJECT_MERGE : OBJECT_INTERSECTION;
 }
@@ -256,10 +257,12 @@ ObjectNode *parse_object(Converter *cv) {
     next_token(cv);
     expect(cv, '{', token->text);
     ObjectNode *object = parse_data(cv, token);
+    bool is_copy = object->shared;
     if (token->code == KW_light_source && object->light)
         parse_light_items(cv, object);
     else
         parse_object_modifiers(cv, object);
+    object->difference = object->difference || (token->code == KW_difference && !is_copy);
     if (!next_is(cv, '}') && starts_statement(peek_token(cv)->code))
         die_expected(cv, arena_printf(cv->arena, "a modifier or '}' in '%s'", token->text));
     expect(cv, '}', token->text);

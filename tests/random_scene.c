@@ -538,6 +538,9 @@ static uint32_t make_objects(Rng *rng, Arena *arena, Scene *scene, int depth, ui
             object.solid = child == OBJECT_PATCH || child == OBJECT_UNION;
         }
         object.whole = type == OBJECT_UNION && !object.clips.count && random_bool(rng);
+        object.difference =
+            (type == OBJECT_INTERSECTION || type == OBJECT_MERGE) && random_bool(rng);
+        object.cutaway = !object_is_tree(&object) && object.texture == NO_INDEX && random_bool(rng);
         scene->objects[index] = object;
         (*items)[i] = index;
     }

@@ -155,6 +155,8 @@
     X(ObjectType, type)                                                                            \
     X(uint32_t, texture)                                                                           \
     X(uint32_t, light_group)                                                                       \
+    X(bool, difference)                                                                            \
+    X(bool, cutaway)                                                                               \
     X(uint32_t, interior_texture) X(uint32_t, interior) X(bool, has_transform)
 #define FOG_MEMBERS(X)                                                                             \
     X(FogType, type)                                                                               \

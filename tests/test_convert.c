@@ -387,9 +387,13 @@ static void trees_and_clips(void **state) {
     result = convert_text("difference { julia_fractal { <1,0,0,0> } sphere { 0, 1 } }");
     assert_int_equal(result.scene->object_count, 0);
     assert_silent("difference { sphere { 0, 1 pigment { rgb 1 } } box { 0, 1 } cutaway_textures }");
-    assert_warns("difference { union { sphere { 0, 1 pigment { rgb 1 } } sphere { x, 1 pigment { "
-                 "rgb 0.5 } } } box { 0, 1 } cutaway_textures }",
-                 "cutaway_textures of several");
+    const char many[] = "difference { union { #for (I, 1, %d) sphere { I*x, 1 pigment { rgb I } } "
+                        "#end } box { 0, 1 } cutaway_textures }";
+    char text[256];
+    snprintf(text, sizeof text, many, HIT_MAX_TEXTURES);
+    assert_silent(text);
+    snprintf(text, sizeof text, many, HIT_MAX_TEXTURES + 1);
+    assert_warns(text, "cutaway_textures among so many textures");
 }
 
 // ---- what is not modelled

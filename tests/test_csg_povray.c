@@ -5,19 +5,10 @@
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
-#include <stdlib.h>
 
 #include <cmocka.h>
 
-#include "render/camera.h"
-#include "render/trace.h"
-#include "tests/convert_help.h"
-#include "tests/povray_pictures.h"
-
-#include <math.h>
-#include <stdio.h>
-
-enum { WIDTH = 64, HEIGHT = 48 };
+#include "tests/povray_table.h"
 
 // What stands in front of every text, after "#version 3.7; global_settings { assumed_gamma 1 }".
 static const char STAGE[] =
@@ -107,67 +98,9 @@ static const char *const SCENES[] = {
 };
 enum { SCENE_COUNT = sizeof SCENES / sizeof *SCENES };
 
-static char *scene_text(size_t number) {
-    static char text[8192];
-    snprintf(text, sizeof text, "%s%s\n", STAGE, SCENES[number]);
-    return text;
-}
-
-static long value_of(float v) { return lround(fmin(fmax(v, 0.0), 1.0) * 65535.0); }
-
-// How many pixels differ by more than a rounding in the last places.
-static int count_differences(const uint16_t *want, const char *text) {
-    const Scene *scene = scene_of(text);
-    PatchSetOptions facets = {.method = METHOD_FACETS, .tolerance = 1e-9};
-    World *world = world_create(scene, &facets);
-    TraceOptions options = {.quality = 9};
-    Shading *shading = shading_create(scene, world, &options);
-    Tracer *tracer = tracer_create(shading);
-    const CameraView view = camera_view(&scene->camera, NULL, WIDTH, HEIGHT);
-    int count = 0;
-    for (int i = 0; i < WIDTH * HEIGHT; i++) {
-        Ray ray;
-        camera_ray(&view, i % WIDTH, i / WIDTH, &ray);
-        Color c = tracer_trace(tracer, &ray);
-        const long got[3] = {value_of(c.r), value_of(c.g), value_of(c.b)};
-        bool differs = false;
-        for (int k = 0; k < 3; k++)
-            differs = differs || labs(got[k] - want[i * 3 + k]) > 2;
-        count += differs;
-    }
-    tracer_destroy(tracer);
-    shading_destroy(shading);
-    world_destroy(world);
-    return count;
-}
-
 static void test_pictures(void **state) {
     (void)state;
-    PovrayPictures *pictures = povray_create(WIDTH, HEIGHT);
-    for (size_t i = 0; i < SCENE_COUNT; i++) {
-        char path[128];
-        snprintf(path, sizeof path, "%s/job%zu.pov", pictures->directory, i);
-        FILE *file = fopen(path, "w");
-        assert_non_null(file);
-        fprintf(file, "#version 3.7; global_settings { assumed_gamma 1 }\n%s", scene_text(i));
-        fclose(file);
-    }
-    if (!povray_render(pictures, SCENE_COUNT)) {
-        povray_destroy(pictures);
-        print_message("povray is not installed: nothing to compare with\n");
-        skip();
-    }
-    bool good = true;
-    for (size_t i = 0; i < SCENE_COUNT; i++) {
-        const uint16_t *pixels = povray_read(pictures, i);
-        if (!pixels)
-            fail_msg("povray refused %s/job%zu.pov", pictures->directory, i);
-        int differ = count_differences(pixels, scene_text(i));
-        print_message("scene %zu: %d of %d pixels differ\n", i, differ, WIDTH * HEIGHT);
-        good = good && differ * 200 <= WIDTH * HEIGHT; // 0.5 %
-    }
-    povray_destroy(pictures);
-    assert_true(good);
+    compare_table(STAGE, SCENES, SCENE_COUNT, 0.005);
 }
 
 int main(void) {

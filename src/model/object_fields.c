@@ -37,6 +37,8 @@ static const Field OBJECT_FIELDS[] = {
     BOOL(Object, uv_mapping, "uv_mapping"),
     BOOL(Object, solid, "solid"),
     BOOL(Object, whole, "whole"),
+    BOOL(Object, difference, "difference"),
+    BOOL(Object, cutaway, "cutaway"),
     END,
 };
 static const Record OBJECT = {NULL, OBJECT_FIELDS, sizeof(Object), NULL, NULL};

@@ -244,6 +244,7 @@ uint32_t instance_interior(const Object *instance, uint32_t own) {
     X(crackle)                                                                                     \
     X(crand)                                                                                       \
     X(cubic)                                                                                       \
+    X(cutaway_textures)                                                                            \
     X(cylinder)                                                                                    \
     X(cylinder_camera)                                                                             \
     X(cylinder_light)                                                                              \
@@ -583,6 +584,7 @@ static void collect_objects(const Scene *scene, FeatureSet *set) {
         need(set, FEATURE_clipped_by, object->clips.count > 0);
         need(set, FEATURE_bounded_by, object->bounds.count > 0);
         need(set, FEATURE_whole_union, object->whole);
+        need(set, FEATURE_cutaway_textures, object->cutaway);
         need(set, FEATURE_patch_solids, object->solid);
         need(set, FEATURE_double_illuminate, object->double_illuminate);
         need(set, FEATURE_uv_mapping, object->uv_mapping);

@@ -555,6 +555,9 @@ typedef struct {
     uint32_t interior_count;
 } InstanceShape;
 
+// One hit shows no more textures than this at once, of parts of a blob or of what was cut.
+enum { HIT_MAX_TEXTURES = 32 };
+
 typedef struct {
     ObjectType type;
     // Leaves: NO_INDEX in texture means POV-Ray's built-in default (black). interior NO_INDEX: an
@@ -567,6 +570,10 @@ typedef struct {
     bool uv_mapping;       // object level: all its textures are evaluated at (u, v, 0)
     bool solid;            // of a union of patches: they are closed, and have an inside
     bool whole;            // of a union without clips: as one object, like other trees
+    // Of an intersection or merge, and of a leaf without a texture: POV-Ray's cutaway_textures. A
+    // hit of the leaf shows the textures of what contains it in the outermost intersection, merge
+    // or clipped union around, each alike; of a difference only the first child counts.
+    bool difference, cutaway;
     bool has_transform;
     Transform transform; // local to world, of types with a local space (object_has_space)
     // Hits, and the inside, are only where all of these objects are (their flags and textures do

@@ -311,6 +311,10 @@ static void check_object(const Check *c, const FieldPath *path, const Object *ob
         refuse(c, path, "a patch cannot have 'clipped_by': put it into a union that has");
     if (object->whole && (object->type != OBJECT_UNION || object->clips.count > 0))
         refuse(c, path, "'whole' is for unions without 'clipped_by'");
+    if (object->difference && object->type != OBJECT_INTERSECTION && object->type != OBJECT_MERGE)
+        refuse(c, path, "'difference' is for intersections and merges");
+    if (object->cutaway && (object_is_tree(object) || object->texture != NO_INDEX))
+        refuse(c, path, "'cutaway' is for primitives without a texture");
     check_shape(c, path, object);
 }
 

@@ -248,10 +248,8 @@ static bool inside_clips(const Csg *csg, const CsgNode *node, Vec3 p) {
     return true;
 }
 
-bool csg_inside(const Csg *csg, uint32_t index, Vec3 p) {
+bool csg_inside_unclipped(const Csg *csg, uint32_t index, Vec3 p) {
     const CsgNode *node = &csg->nodes[index];
-    if (!node->solid || !box_has(&node->inside, p) || !inside_clips(csg, node, p))
-        return false;
     if (node->shape)
         return shape_inside(node->shape, p);
     if (node->body)
@@ -261,6 +259,12 @@ bool csg_inside(const Csg *csg, uint32_t index, Vec3 p) {
         if (csg_inside(csg, c, p) != all)
             return !all;
     return all;
+}
+
+bool csg_inside(const Csg *csg, uint32_t index, Vec3 p) {
+    const CsgNode *node = &csg->nodes[index];
+    return node->solid && box_has(&node->inside, p) && inside_clips(csg, node, p) &&
+           csg_inside_unclipped(csg, index, p);
 }
 
 // Is p inside all children, or none, but `own`?

@@ -48,6 +48,7 @@ bool csg_is_watched(const Csg *csg, uint32_t node);
 // Does a hit of the leaf at p count?
 bool csg_keeps(const Csg *csg, uint32_t node, Vec3 p);
 bool csg_inside(const Csg *csg, uint32_t node, Vec3 p);
+bool csg_inside_unclipped(const Csg *csg, uint32_t node, Vec3 p); // its own clips do not count
 // Does the ray, of unit direction, meet all that bounds the leaves with this gate? *entry: where it
 // comes into the box of POV-Ray's object, if that is one of the bounds; else -INFINITY.
 bool csg_admits(const Csg *csg, uint32_t gate, const Ray *ray, double *entry);
@@ -55,5 +56,11 @@ bool csg_admits(const Csg *csg, uint32_t gate, const Ray *ray, double *entry);
 bool csg_bounds_cut(const Scene *scene, const ObjectList *bounds, const Box *reach);
 // Is p inside the leaf where the trees around let its inside be?
 bool csg_fills(const Csg *csg, uint32_t node, Vec3 p);
+// cutaway_textures: the tree whose textures a hit of the leaf shows; NO_INDEX: it has its own. And
+// those textures at p, with weights that add up to 1 (to less where there are more than
+// SHAPE_MAX_TEXTURES); returns how many.
+uint32_t csg_cut_tree(const Csg *csg, uint32_t leaf);
+uint32_t csg_cut_textures(const Csg *csg, uint32_t tree, Vec3 p,
+                          ShapeTexture out[SHAPE_MAX_TEXTURES]);
 
 #endif

@@ -48,7 +48,7 @@ static void prepare_objects(Shading *shading) {
     shading->objects = ARENA_ARRAY(shading->arena, ObjectInfo, scene->object_count);
     size_t bodies = (size_t)scene->interior_count + scene->object_count;
     shading->hollow = ARENA_ARRAY(shading->arena, bool, bodies);
-    shading->all_opaque = true;
+    bool any_clear = false;
     for (uint32_t i = 0; i < scene->object_count; i++) {
         const Object *object = &scene->objects[i];
         ObjectInfo *info = &shading->objects[i];
@@ -56,11 +56,19 @@ static void prepare_objects(Shading *shading) {
         info->opaque = surface_is_opaque(shading->textures, object);
         if (object->type == OBJECT_INSTANCE)
             prepare_instance(shading, i);
+        any_clear = any_clear || !info->opaque;
         shading->groups |= object->no_global_lights;
-        if (!object_is_tree(object) && !object->no_shadow && !info->opaque)
-            shading->all_opaque = false;
         // Objects of one body that do not agree: the last decides, as in POV-Ray.
         shading->hollow[info->body] = object->hollow;
+    }
+    shading->all_opaque = true;
+    for (uint32_t i = 0; i < scene->object_count; i++) {
+        const Object *object = &scene->objects[i];
+        ObjectInfo *info = &shading->objects[i];
+        if (object->cutaway && any_clear)
+            info->opaque = false; // it may show the texture of a clear one
+        if (!object_is_tree(object) && !object->no_shadow && !info->opaque)
+            shading->all_opaque = false;
     }
 }
 

@@ -432,6 +432,13 @@ static inline void query_start(RayQuery *query, const World *world, const Ray *u
     query->prim = query->outer = NULL;
 }
 
+// What a cut shows, where it has nothing of its own.
+static void add_cut(const RayQuery *query, WorldHit *hit) {
+    const Leaf *leaf = query->leaf;
+    if (leaf->cut != NO_INDEX && hit->texture_count == 0)
+        hit->texture_count = csg_cut_textures(&query->world->csg, leaf->cut, hit->p, hit->textures);
+}
+
 // What is known of the query's hit on a primitive, in the space of the world it is in.
 static void describe_prim(const RayQuery *query, bool without_uv, WorldHit *hit) {
     const Shape *shape = &query->prim->shape;
@@ -442,6 +449,7 @@ static void describe_prim(const RayQuery *query, bool without_uv, WorldHit *hit)
     hit->normal = shape_normal(shape, hit->p, &query->hit);
     hit->u = uv.u, hit->v = uv.v;
     hit->bound = hit->reach = 0.0;
+    add_cut(query, hit);
 }
 
 static void describe_patch(const RayQuery *query, WorldHit *hit) {
@@ -452,6 +460,7 @@ static void describe_patch(const RayQuery *query, WorldHit *hit) {
     hit->u = uv.u, hit->v = uv.v;
     hit->bound = query->patch.bound;
     hit->reach = query->patch.bound + query->leaf->tolerance;
+    add_cut(query, hit);
 }
 
 // The same where an instance shows it.

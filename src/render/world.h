@@ -31,7 +31,7 @@ typedef struct {
     double reach;    // patches: how far apart this hit and another one of the same place may be
     uint32_t object; // index in scene->objects, a leaf
     uint32_t instance; // the instance that shows it, an object too, or NO_INDEX
-    // The primitive's own textures; none: the object's count.
+    // The primitive's own textures, or those of what it cuts; none: the object's count.
     uint32_t texture_count;
     ShapeTexture textures[SHAPE_MAX_TEXTURES];
 } WorldHit;

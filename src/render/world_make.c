@@ -88,6 +88,7 @@ static void add_instance(Maker *maker, uint32_t index, uint32_t position) {
                                        .mask = RAY_ALL,
                                        .node = NO_INDEX,
                                        .gate = NO_INDEX,
+                                       .cut = NO_INDEX,
                                        .instance = instance}));
 }
 
@@ -116,7 +117,8 @@ static void add_object(Maker *maker, uint32_t index, Place place) {
                  .mask = RAY_ALL & ~place.blind,
                  .node = node,
                  .gate = node == NO_INDEX ? NO_INDEX : world->csg.nodes[node].gate,
-                 .watched = node != NO_INDEX && csg_is_watched(&world->csg, node)};
+                 .watched = node != NO_INDEX && csg_is_watched(&world->csg, node),
+                 .cut = csg_cut_tree(&world->csg, node)};
     leaf.watched = leaf.watched || leaf.gate != NO_INDEX;
     array_push(&maker->leaves, leaf);
 }

@@ -116,7 +116,7 @@ typedef struct {
     uint32_t texture; // in the scene; NO_INDEX: the object's
     float weight;
 } ShapeTexture;
-enum { SHAPE_MAX_TEXTURES = 8 };
+enum { SHAPE_MAX_TEXTURES = HIT_MAX_TEXTURES };
 uint32_t shape_textures(const Shape *shape, Vec3 p, const ShapeHit *hit,
                         ShapeTexture out[SHAPE_MAX_TEXTURES]);
 // Unit normal at p, the point of a hit; points out of the inside, `inverse` applied.

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+// A table of scene texts, rendered by POV-Ray and, converted and traced here, compared with it
+// pixel by pixel. Patches are POV-Ray's own triangles, so that every pixel may agree.
+#ifndef TESTS_POVRAY_TABLE_H
+#define TESTS_POVRAY_TABLE_H
+
+#include <stddef.h>
+
+enum { TABLE_WIDTH = 64, TABLE_HEIGHT = 48 };
+
+// For a cmocka test: it fails when in some scene more than `share` of the pixels are off by more
+// than a rounding of 16 bits. stage: what stands in front of every text, after "#version 3.7;
+// global_settings { assumed_gamma 1 }". Passes over with a message when there is no povray.
+void compare_table(const char *stage, const char *const *scenes, size_t count, double share);
+
+#endif

@@ -51,6 +51,7 @@ typedef struct {
     const InteriorNode *node; // NULL: air
     const TextureNode *texture;
     uint32_t index;
+    bool outside; // of a definition: it is the instance's
 } SharedInterior;
 
 static uint32_t store_interior(Emitter *e, const InteriorNode *node) {
@@ -84,7 +85,7 @@ static void take_from_finish(Emitter *e, uint32_t index, const TextureNode *text
 }
 
 static uint32_t use_shared(Emitter *e, SharedInterior *shared) {
-    if (shared->index == NO_INDEX) {
+    if (shared->index == NO_INDEX && !shared->outside) {
         shared->index = store_interior(e, shared->node);
         take_from_finish(e, shared->index, shared->texture);
     }
@@ -443,7 +444,66 @@ static void emit_clips(Emitter *e, const ObjectNode *node, Object *object) {
             object->clips.count++;
 }
 
+// A copy with children of its own.
+static const ObjectNode *apart(Emitter *e, const ObjectNode *node) {
+    ObjectNode *copy = object_copy(e->cv, node);
+    object_unshare(e->cv, copy);
+    return copy;
+}
+
+// The tree as it was declared, without the texture and the interior that come from outside.
+static const Definition *define(Emitter *e, Shared *shared, const ObjectNode *node,
+                                const Inherited *from, const InstanceFlags *flags) {
+    uint32_t first = (uint32_t)e->objects.count;
+    ObjectNode *tree = object_copy(e->cv, node);
+    SharedInterior outside = {.index = NO_INDEX, .outside = true};
+    tree->late = NULL;
+    Inherited own = inherit(node, from);
+    own.texture = NULL;
+    own.interior = &outside;
+    uint32_t root = emit_tree(e, tree, from, &own);
+    return instance_define(e, shared, node, flags, root, first);
+}
+
+// One more copy of what the scene has once. False: it must be emitted like any other object.
+static bool emit_instance(Emitter *e, const ObjectNode *node, const Inherited *from,
+                          uint32_t *index) {
+    Transform move;
+    Shared *shared = NULL;
+    bool open = !from->nested && !from->body && !from->cutaway && !from->uv_mapping;
+    if (open && !from->interior_texture && !finish_has_interior(from->texture))
+        shared = instance_find(e, node, &move);
+    if (!shared)
+        return false;
+    Inherited own = inherit(node, from);
+    const InstanceFlags flags = {.no_shadow = own.no_shadow,
+                                 .no_image = own.no_image,
+                                 .no_reflection = own.no_reflection,
+                                 .hollow = own.hollow,
+                                 .double_illuminate = own.double_illuminate,
+                                 .no_global_lights = own.no_global_lights,
+                                 .light_group = own.light_group};
+    const Definition *definition = instance_definition(shared, node, &flags);
+    if (!definition)
+        definition = define(e, shared, node, from, &flags);
+    Object object = object_default(OBJECT_INSTANCE);
+    if (!definition)
+        return false;
+    object.texture = emit_texture(e, own.texture);
+    if (!node->interior && from->interior)
+        object.interior = use_shared(e, from->interior);
+    if (!instance_fill(e, definition, &move, &object))
+        return false;
+    *index = store_object(e, &object);
+    return true;
+}
+
 static uint32_t emit_object(Emitter *e, const ObjectNode *node, const Inherited *from) {
+    uint32_t instance;
+    if (node->late && emit_instance(e, node, from, &instance))
+        return instance;
+    if (node->late)
+        node = apart(e, node);
     if (!node->light && !is_there(node)) {
         emit_lights(e, node, from);
         emit_missing(e, node);
@@ -462,8 +522,10 @@ static uint32_t emit_object(Emitter *e, const ObjectNode *node, const Inherited 
 bool object_is_there(const ObjectNode *object) { return is_there(object); }
 
 static void emit_roots(Emitter *e) {
-    for (const RootNode *root = e->cv->nodes->first; root; root = root->next)
+    for (const RootNode *root = e->cv->nodes->first; root; root = root->next) {
         e->frame_count += count_frames(root->object);
+        instance_count(e, root->object);
+    }
     for (const RootNode *root = e->cv->nodes->first; root; root = root->next) {
         Inherited from = {.texture = root->default_texture};
         uint32_t index = emit_object(e, root->object, &from);
@@ -561,6 +623,7 @@ static void keep_pools(Emitter *e) {
     KEEP(e, scene, roots, root_count);
     KEEP(e, scene, lights, light_count);
     KEEP(e, scene, projections, projection_count);
+    KEEP(e, scene, definitions, definition_count);
     KEEP(e, scene, pigments, pigment_count);
     KEEP(e, scene, pictures, picture_count);
     KEEP(e, scene, densities, density_count);

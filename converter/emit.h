@@ -33,6 +33,9 @@ typedef struct Said {
 
 enum { SAID_BUCKETS = 256 };
 
+// emit_instance.c: a declared tree that copies show, by the list of its children.
+typedef struct Shared Shared;
+
 typedef struct {
     Converter *cv;
     Scene *scene;
@@ -59,6 +62,9 @@ typedef struct {
     ARRAY(Mesh) meshes;
     ARRAY(HeightMap) height_maps;
     NodeTable mesh_nodes, map_nodes;
+    ARRAY(uint32_t) definitions;
+    NodeTable shared_nodes; // numbers of `shared`
+    ARRAY(Shared *) shared;
 } Emitter;
 
 // requires.c: adds to cv->missing.
@@ -104,10 +110,51 @@ void emit_solid(Emitter *e, const ObjectNode *node, bool bare, Object *object);
 // emit_cut.c: says what cutaway_textures in the tree may lack.
 void emit_cut_gap(Emitter *e, const ObjectNode *tree);
 uint32_t emit_pigment(Emitter *e, const PatternNode *pigment);
+// Into the pool, unless it is there; the number.
+uint32_t store_pigment(Emitter *e, const Pigment *pigment);
+uint32_t store_normal(Emitter *e, const Normal *normal);
+uint32_t store_texture(Emitter *e, const Texture *texture);
+// emit_moved.c: the texture as it is when the object that has it is moved; itself if that is the
+// same.
+uint32_t emit_texture_moved(Emitter *e, uint32_t texture, const Transform *move);
 // A missing normal (NULL) bends nothing. no_bump_scale: the texture around has it.
 uint32_t emit_normal(Emitter *e, const PatternNode *normal, bool no_bump_scale);
 uint32_t emit_texture(Emitter *e, const TextureNode *texture);
 // The function's number in scene->functions, for a pattern or a surface that uses it.
 uint32_t emit_function(Emitter *e, const UserFunction *function);
+
+// ---- emit_instance.c ---------------------------------------------------------------------------
+
+// Copies of a tree that are held once: counted first, over everything that stands at top level.
+void instance_count(Emitter *e, const ObjectNode *root);
+
+// What the children of a copy have from around it, as far as it may differ between copies.
+typedef struct {
+    bool no_shadow, no_image, no_reflection, hollow, double_illuminate, no_global_lights;
+    uint32_t light_group;
+} InstanceFlags;
+
+// A tree of a copy that has been stored as a definition.
+typedef struct {
+    const InteriorNode *interior;
+    InstanceFlags flags;
+    bool no_split;
+    uint32_t definition;
+    uint32_t *textures; // of its leaves, ascending
+    uint32_t texture_count;
+    uint32_t *interiors;
+    uint32_t interior_count;
+} Definition;
+
+// Is the copy worth it, and can it be exact? *move: where it stands.
+Shared *instance_find(Emitter *e, const ObjectNode *node, Transform *move);
+const Definition *instance_definition(const Shared *shared, const ObjectNode *node,
+                                      const InstanceFlags *flags);
+// Keeps a new one: root, and all objects stored from `first` on, are its tree. NULL: no instance
+// can show it; its objects are gone.
+const Definition *instance_define(Emitter *e, Shared *shared, const ObjectNode *node,
+                                  const InstanceFlags *flags, uint32_t root, uint32_t first);
+// The instance: object needs only its own texture and interior besides. False: it cannot be.
+bool instance_fill(Emitter *e, const Definition *definition, const Transform *move, Object *object);
 
 #endif

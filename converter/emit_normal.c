@@ -73,7 +73,7 @@ static bool same_normal(const Emitter *e, uint32_t index, const void *record) {
     return normal_equal(&e->normals.items[index], record);
 }
 
-static uint32_t store_normal(Emitter *e, const Normal *normal) {
+uint32_t store_normal(Emitter *e, const Normal *normal) {
     uint64_t hash = pattern_hash(HASH_START, &normal->pattern);
     hash = hash_bytes(hash, &normal->amount, sizeof normal->amount);
     hash = hash_bytes(hash, normal->entries, normal->entry_count * sizeof *normal->entries);

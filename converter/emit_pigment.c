@@ -247,7 +247,7 @@ static bool same_pigment(const Emitter *e, uint32_t index, const void *record) {
     return pigment_equal(&e->pigments.items[index], record);
 }
 
-static uint32_t store_pigment(Emitter *e, const Pigment *pigment) {
+uint32_t store_pigment(Emitter *e, const Pigment *pigment) {
     uint64_t hash = hash_pigment(pigment);
     uint32_t index = pool_keep(e, &e->pigment_table, hash, pigment, same_pigment);
     if (index == e->pigments.count)

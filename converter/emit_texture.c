@@ -39,7 +39,7 @@ static bool same_texture(const Emitter *e, uint32_t index, const void *record) {
     return texture_equal(&e->textures.items[index], record);
 }
 
-static uint32_t store_texture(Emitter *e, const Texture *texture) {
+uint32_t store_texture(Emitter *e, const Texture *texture) {
     uint64_t hash = hash_texture(texture);
     uint32_t index = pool_keep(e, &e->texture_table, hash, texture, same_texture);
     if (index == e->textures.count)

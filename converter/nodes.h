@@ -36,14 +36,21 @@ struct TextureNode;
 enum { MOVE_CACHE = 32 };
 
 // One transform statement. The cache keeps textures that many objects of a union share shared.
-typedef struct {
+typedef struct Move {
     MoveKind kind;
     Vec3 v; // as written; MOVE_MATRIX: unused
     Transform t;
     struct {
         const struct TextureNode *from, *to;
     } cache[MOVE_CACHE];
+    struct Move *kept; // the same in the arena, for trees that take it later; NULL: none yet
 } Move;
+
+// A transform that the children of a tree are still to take.
+typedef struct LateMove {
+    const struct LateMove *before; // the one written before
+    Move *move;
+} LateMove;
 
 // translate, rotate, scale, matrix, transform: if the next token is one, consumes the statement.
 bool parse_move(Converter *cv, Move *move);
@@ -289,9 +296,11 @@ struct ObjectNode {
     const TextureNode *texture, *interior_texture;
     const InteriorNode *interior;
     bool hollow_set, double_set;
-    bool shared;    // children, points and light belong to another node too: copy before a change
-    int depth;      // of the tree below
-    uint64_t below; // objects in the tree below, all copies counted
+    bool shared; // children, points and light belong to another node too: copy before a change
+    const LateMove *late;     // of a shared tree: its children have not taken these yet
+    bool lit;                 // a light is below
+    int depth;                // of the tree below
+    uint64_t below;           // objects in the tree below, all copies counted
     ObjectNode *first, *last; // children
     ObjectNode *bounds, *clips;
     const Loc *bound_loc, *clip_loc;
@@ -328,7 +337,8 @@ void object_put_below(Converter *cv, ObjectNode *parent, const ObjectNode *part)
 // *count grows by the object and all below it, up to the limit.
 void object_count(Converter *cv, uint64_t *count, const ObjectNode *object);
 void object_add_child(Converter *cv, ObjectNode *parent, ObjectNode *child);
-// Gives the object its own children, points and light before they are changed.
+// Gives the object its own children, points and light before they are changed, and the children
+// the transforms that waited.
 void object_unshare(Converter *cv, ObjectNode *object);
 void object_move(Converter *cv, ObjectNode *object, Move *move);
 void object_invert(Converter *cv, ObjectNode *object);

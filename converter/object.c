@@ -6,6 +6,8 @@
 // declared tree may be used a thousand times, and grow by itself in a loop, at little cost.
 #include "converter/nodes.h"
 
+#include "base/array.h"
+
 static bool object_type(int keyword, ObjectType *type) {
     static const struct {
         int keyword;
@@ -93,6 +95,7 @@ void object_count(Converter *cv, uint64_t *count, const ObjectNode *object) {
 void object_put_below(Converter *cv, ObjectNode *parent, const ObjectNode *part) {
     object_count(cv, &parent->below, part);
     check_depth(cv, part->depth + 1, "objects");
+    parent->lit = parent->lit || part->lit || part->light;
     if (parent->depth <= part->depth)
         parent->depth = part->depth + 1;
 }
@@ -123,6 +126,17 @@ static ObjectNode *copy_list(Converter *cv, const ObjectNode *list, ObjectNode *
     return first;
 }
 
+// The children take the transforms, the first written first.
+static void catch_up(Converter *cv, ObjectNode *object, const LateMove *late) {
+    ARRAY(Move *) moves = {0};
+    for (; late; late = late->before)
+        array_push(&moves, late->move);
+    for (size_t i = moves.count; i > 0; i--)
+        for (ObjectNode *child = object->first; child; child = child->next)
+            object_move(cv, child, moves.items[i - 1]);
+    array_free(&moves);
+}
+
 void object_unshare(Converter *cv, ObjectNode *object) {
     if (!object->shared)
         return;
@@ -145,9 +159,31 @@ void object_unshare(Converter *cv, ObjectNode *object) {
         if (object->light->projected_through)
             object->light->projected_through = object_copy(cv, object->light->projected_through);
     }
+    const LateMove *late = object->late;
+    object->late = NULL;
+    catch_up(cv, object, late);
 }
 
-void object_move(Converter *cv, ObjectNode *object, Move *move) {
+// A copy of a tree of some size takes transforms as a whole: if there are many such copies the
+// scene has the tree once (emit_instance.c), else its children take them when they are asked for.
+enum { LATE_LEAST = 8 };
+
+static bool moves_late(const Converter *cv, const ObjectNode *object) {
+    return object->shared && keyword_is_csg(object->keyword) && object->below >= LATE_LEAST &&
+           !object->lit && !object->bounds && !object->clips && !cv->options->patch_solids;
+}
+
+static void move_late(Converter *cv, ObjectNode *object, Move *move) {
+    if (!move->kept) {
+        Move kept = {.kind = move->kind, .v = move->v, .t = move->t};
+        move->kept = arena_copy(cv->arena, &kept, sizeof kept);
+        move->kept->kept = move->kept;
+    }
+    const LateMove late = {object->late, move->kept};
+    object->late = arena_copy(cv->arena, &late, sizeof late);
+}
+
+static void move_children(Converter *cv, ObjectNode *object, Move *move) {
     object_unshare(cv, object);
     for (ObjectNode *child = object->first; child; child = child->next)
         object_move(cv, child, move);
@@ -155,6 +191,13 @@ void object_move(Converter *cv, ObjectNode *object, Move *move) {
         object_move(cv, bound, move);
     for (ObjectNode *clip = object->clips; clip; clip = clip->next)
         object_move(cv, clip, move);
+}
+
+void object_move(Converter *cv, ObjectNode *object, Move *move) {
+    if (moves_late(cv, object))
+        move_late(cv, object, move);
+    else
+        move_children(cv, object, move);
     if (!object->object.uv_mapping) {
         object->texture = texture_moved(cv, object->texture, move);
         object->interior_texture = texture_moved(cv, object->interior_texture, move);

@@ -451,13 +451,14 @@ static const ObjectNode *apart(Emitter *e, const ObjectNode *node) {
     return copy;
 }
 
-// The tree as it was declared, without the texture and the interior that come from outside.
+// The tree as it was declared, without the texture and the interior that the copy has.
 static const Definition *define(Emitter *e, Shared *shared, const ObjectNode *node,
                                 const Inherited *from, const InstanceFlags *flags) {
     uint32_t first = (uint32_t)e->objects.count;
     ObjectNode *tree = object_copy(e->cv, node);
     SharedInterior outside = {.index = NO_INDEX, .outside = true};
     tree->late = NULL;
+    tree->interior = NULL;
     Inherited own = inherit(node, from);
     own.texture = NULL;
     own.interior = &outside;
@@ -480,6 +481,7 @@ static bool emit_instance(Emitter *e, const ObjectNode *node, const Inherited *f
                                  .no_image = own.no_image,
                                  .no_reflection = own.no_reflection,
                                  .hollow = own.hollow,
+                                 .double_set = own.double_set,
                                  .double_illuminate = own.double_illuminate,
                                  .no_global_lights = own.no_global_lights,
                                  .light_group = own.light_group};
@@ -490,7 +492,9 @@ static bool emit_instance(Emitter *e, const ObjectNode *node, const Inherited *f
     if (!definition)
         return false;
     object.texture = emit_texture(e, own.texture);
-    if (!node->interior && from->interior)
+    if (node->interior)
+        object.interior = store_interior(e, node->interior);
+    else if (from->interior)
         object.interior = use_shared(e, from->interior);
     if (!instance_fill(e, definition, &move, &object))
         return false;

@@ -130,13 +130,13 @@ void instance_count(Emitter *e, const ObjectNode *root);
 
 // What the children of a copy have from around it, as far as it may differ between copies.
 typedef struct {
-    bool no_shadow, no_image, no_reflection, hollow, double_illuminate, no_global_lights;
+    bool no_shadow, no_image, no_reflection, hollow, double_set, double_illuminate;
+    bool no_global_lights;
     uint32_t light_group;
 } InstanceFlags;
 
 // A tree of a copy that has been stored as a definition.
 typedef struct {
-    const InteriorNode *interior;
     InstanceFlags flags;
     bool no_split;
     uint32_t definition;

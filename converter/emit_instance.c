@@ -134,7 +134,7 @@ Shared *instance_find(Emitter *e, const ObjectNode *node, Transform *move) {
 static bool same_flags(const InstanceFlags *a, const InstanceFlags *b) {
     return a->no_shadow == b->no_shadow && a->no_image == b->no_image &&
            a->no_reflection == b->no_reflection && a->hollow == b->hollow &&
-           a->double_illuminate == b->double_illuminate &&
+           a->double_set == b->double_set && a->double_illuminate == b->double_illuminate &&
            a->no_global_lights == b->no_global_lights && a->light_group == b->light_group;
 }
 
@@ -142,8 +142,7 @@ const Definition *instance_definition(const Shared *shared, const ObjectNode *no
                                       const InstanceFlags *flags) {
     for (size_t i = 0; i < shared->definitions.count; i++) {
         const Definition *d = &shared->definitions.items[i];
-        if (d->interior == node->interior && d->no_split == node->no_split &&
-            same_flags(&d->flags, flags))
+        if (d->no_split == node->no_split && same_flags(&d->flags, flags))
             return d;
     }
     return NULL;
@@ -231,7 +230,7 @@ const Definition *instance_define(Emitter *e, Shared *shared, const ObjectNode *
         if (object->type == OBJECT_SPHERE && object->texture != NO_INDEX)
             good = !asks_uv(e, object->texture);
     }
-    Definition d = {.interior = node->interior, .flags = *flags, .no_split = node->no_split};
+    Definition d = {.flags = *flags, .no_split = node->no_split};
     d.textures = keep_indices(e, &moving, &d.texture_count);
     d.interiors = keep_indices(e, &interiors, &d.interior_count);
     // A texture cannot both move and stay.

@@ -109,7 +109,7 @@ build/libqipatch.a: $(filter build/src/patch/% build/src/kernel/% build/src/base
 	@ar rcs $@ build/qipatch.o
 
 # Rays at all extremes against an exact oracle.
-STRESS_OBJ = $(patsubst %.c,build/%.o,$(wildcard tests/programs/stress.c tests/stress*.c tests/ray_oracle.c))
+STRESS_OBJ = $(patsubst %.c,build/%.o,$(wildcard tests/programs/stress.c tests/stress*.c tests/ray_oracle*.c))
 build/stress: $(STRESS_OBJ) $(filter build/src/base/% build/src/patch/% build/src/kernel/%,$(OBJ))
 	@echo '  LD  $@'
 	@$(CC) -fopenmp -o $@ $^ -lm -ldl

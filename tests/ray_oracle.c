@@ -1,17 +1,27 @@
 // SPDX-License-Identifier: MIT
+// Double first, from the leaves of ray_oracle_set.h that the ray meets. What rounding hides there
+// is a small part of the patch; that part is placed with 106 bits (ray_oracle_fine.h) and searched
+// in double again, whose rounding is now relative to the part's size; and so on until 106 bits are
+// used up. Only then the cells themselves are halved in __float128.
 #include "ray_oracle.h"
 
+#include "ray_oracle_fine.h"
+#include "ray_oracle_set.h"
+
+#include "base/diag.h"
+
 #include <stdlib.h>
-#include <string.h>
 
 enum {
-    SIDE = 17,
-    POINTS = SIDE * SIDE,
-    DEPTH = 200, // halvings of one cell: __float128 has 113 bits each way
-    QUICK_DEPTH = 44,
+    QUICK_DEPTH = 44,  // halvings of one cell
+    EXACT_DEPTH = 200, // __float128 has 113 bits each way
     QUICK_BUDGET = 200,
+    FINE_BUDGET = 1000,
+    FINE_PARTS = 200, // of one patch
+    FINE_LEVELS = 5,  // of parts in parts: each is 2^-25 as large, or no better
     EXACT_BUDGET = 1000,
-    NEAR_BUDGET = 8000,
+    EXACT_PARTS = 64,
+    OPEN_CELLS = 64,
 };
 #define MARGIN 0x1p-6
 
@@ -19,17 +29,40 @@ enum {
 typedef struct {
     double u, v, wu, wv;
 } OpenCell;
-enum { OPEN_CELLS = 64 };
+
+// A part of the patch in which a search goes on with parameters of its own, [0,1]^2.
+typedef struct {
+    Real u, v, wu, wv;    // where it lies
+    Real base, unit;      // t is (base + z / weight) unit
+    double z_low, z_high; // of the depths that were asked for
+    bool bounded;         // there are others
+} Place;
+
+// The ray, with its direction scaled by a power of two so that the largest component, k, is in
+// [1/2, 1).
+typedef struct {
+    int k, a, b;
+    double dir[3];
+    Real length; // t in lengths of dir, times this, is t
+} View;
 
 typedef struct {
     const PatchDef *def;
     const Ray *ray;
+    const View *view;
+    const RayOracleRange *range;
     int nu, nv;
     double growth; // (1 + 2 MARGIN)^(nu + nv)
     RayOracle *out;
-    int first; // item of this patch in out
+    int patch, first; // first item of this patch in out
+    Place place;
+    bool last; // what this search leaves open is added to out
+    int budget;
     OpenCell cells[OPEN_CELLS];
     int cell_count; // may exceed OPEN_CELLS: then not all are noted
+    int fine_parts, exact_parts;
+    Real fine_unit; // of depths, in the fine search
+    bool projected; // for the exact search
 } Task;
 
 // ---- Items
@@ -49,22 +82,6 @@ static void join_items(RayOracleRoot *to, const RayOracleRoot *from) {
     join(&to->v, &to->dv, from->v, from->dv);
 }
 
-static double sine_at(const Task *task, double u, double v) {
-    Vec3 s[3];
-    ray_oracle_jet(task->def, u, v, s);
-    const long double a[3] = {s[1].x, s[1].y, s[1].z}, b[3] = {s[2].x, s[2].y, s[2].z};
-    const long double d[3] = {task->ray->dir.x, task->ray->dir.y, task->ray->dir.z};
-    long double across = 0, n2 = 0, d2 = 0;
-    for (int k = 0; k < 3; k++) {
-        int i = (k + 1) % 3, j = (k + 2) % 3;
-        long double n = a[i] * b[j] - a[j] * b[i];
-        across += n * d[k];
-        n2 += n * n;
-        d2 += d[k] * d[k];
-    }
-    return n2 > 0 ? (double)(fabsl(across) / sqrtl(n2 * d2)) : 0.0;
-}
-
 // A root found in two cells is one; open cells that touch become one.
 static void add_root(Task *task, RayOracleRoot item) {
     RayOracle *out = task->out;
@@ -74,9 +91,12 @@ static void add_root(Task *task, RayOracleRoot item) {
             !overlap(other->v, other->dv, item.v, item.dv) ||
             (other->kind == ROOT_OPEN) != (item.kind == ROOT_OPEN))
             continue;
-        if (item.kind != ROOT_OPEN)
-            return;
-        join_items(other, &item);
+        if (item.kind == ROOT_OPEN) {
+            join_items(other, &item);
+        } else if (item.kind == ROOT_CERTAIN && other->kind == ROOT_BORDER) {
+            *other = item;
+            out->open--;
+        }
         return;
     }
     if (out->count == RAY_ORACLE_ROOTS) { // the last takes what finds no room
@@ -86,8 +106,6 @@ static void add_root(Task *task, RayOracleRoot item) {
         join_items(last, &item);
         return;
     }
-    if (item.kind != ROOT_OPEN)
-        item.sine = sine_at(task, fmin(fmax(item.u, 0.0), 1.0), fmin(fmax(item.v, 0.0), 1.0));
     out->open += item.kind != ROOT_CERTAIN;
     out->root[out->count++] = item;
 }
@@ -96,22 +114,23 @@ static void add_item(Task *task, double t, double dt, double u, double v, double
                      RayOracleKind kind) {
     // Rounding to double, if it came from more.
     dt += 0x1p-52 * fabs(t);
-    add_root(task, (RayOracleRoot){kind, t, u, v, dt, du, dv, 0.0});
+    add_root(task, (RayOracleRoot){.kind = kind,
+                                   .patch = task->patch,
+                                   .t = t,
+                                   .u = u,
+                                   .v = v,
+                                   .dt = dt,
+                                   .du = du,
+                                   .dv = dv,
+                                   .sine = -1.0});
 }
 
-// ---- The search
-
-// Halvings are exact in double down to 2^-53 of the patch; a smaller cell is widened to that.
 static void note_cell(Task *task, double u, double v, double wu, double wv) {
-    const double least = 0x1p-48;
-    if (task->cell_count++ >= OPEN_CELLS)
-        return;
-    if (wu < least)
-        u = fmax(u - least, 0.0), wu = fmin(3.0 * least, 1.0 - u);
-    if (wv < least)
-        v = fmax(v - least, 0.0), wv = fmin(3.0 * least, 1.0 - v);
-    task->cells[task->cell_count - 1] = (OpenCell){u, v, wu, wv};
+    if (task->cell_count++ < OPEN_CELLS)
+        task->cells[task->cell_count - 1] = (OpenCell){u, v, wu, wv};
 }
+
+// ---- The searches
 
 #define REAL double
 #define UNIT 0x1p-53
@@ -132,29 +151,468 @@ static void note_cell(Task *task, double u, double v, double wu, double wv) {
 #define NAME(x) exact_##x
 #include "ray_oracle_cells.h"
 
-// What the quick search leaves open is searched again, exactly, and only there.
+static _Thread_local quick_Cell quick_cells[QUICK_DEPTH];
+// The whole patch, projected.
+static _Thread_local exact_Cell exact_whole;
+
+// Scales by a power of two to at most 1 in size. Returns the error, which was `error`, of the
+// results.
+static __float128 scale_exactly(__float128 *p, int count, __float128 error) {
+    int exponent;
+    __float128 most = exact_span_of(p, count).most;
+    frexpl(most > 0 ? (long double)most : 1.0L, &exponent);
+    __float128 scale = ldexpl(1.0L, -exponent);
+    for (int k = 0; k < count; k++)
+        p[k] *= scale;
+    return error * scale;
+}
+
+static void project_exactly(const Task *task) {
+    const PatchDef *def = task->def;
+    const View *view = task->view;
+    exact_Cell *c = &exact_whole;
+    int count = (task->nu + 1) * (task->nv + 1), k = view->k;
+    __float128 d[3], error[2] = {0, 0};
+    for (int axis = 0; axis < 3; axis++)
+        d[axis] = vec_get(task->ray->dir, axis);
+    for (int n = 0; n < count; n++) {
+        __float128 q[3], w = def->weights ? def->weights[n] : 1.0;
+        for (int axis = 0; axis < 3; axis++)
+            q[axis] = (__float128)vec_get(def->points[n], axis) - vec_get(task->ray->org, axis);
+        for (int m = 0; m < 2; m++) {
+            int axis = m == 0 ? view->a : view->b;
+            __float128 p = q[axis] * d[k], s = q[k] * d[axis];
+            c->p[m][n] = w * (p - s);
+            // Each term errs by 2 units (difference, product), their difference by 1 more, and one
+            // more is the weight's.
+            __float128 off = 4 * 0x1p-113 * w * (exact_abs(p) + exact_abs(s));
+            error[m] = exact_max(off, error[m]);
+        }
+        c->p[2][n] = w * q[k] / d[k];
+        c->p[3][n] = w;
+    }
+    c->ex = scale_exactly(c->p[0], count, error[0]);
+    c->ey = scale_exactly(c->p[1], count, error[1]);
+    c->ez = 3 * (__float128)0x1p-113 * exact_span_of(c->p[2], count).most;
+}
+
+// Control points of the part [a,b] of a curve: the blossom of a and b, k times b. In place.
+static void restrict_line(__float128 *p, int step, int n, __float128 a, __float128 b) {
+    __float128 out[ORACLE_SIDE];
+    for (int k = 0; k <= n; k++) {
+        __float128 row[ORACLE_SIDE];
+        for (int i = 0; i <= n; i++)
+            row[i] = p[i * step];
+        for (int level = n; level > 0; level--) {
+            __float128 t = level > k ? a : b;
+            for (int i = 0; i < level; i++)
+                row[i] = (1 - t) * row[i] + t * row[i + 1];
+        }
+        out[k] = row[0];
+    }
+    for (int k = 0; k <= n; k++)
+        p[k * step] = out[k];
+}
+
+// One level errs by 3 UNIT of the largest value: 4 (nu + nv) UNIT in all.
+static __float128 restrict_exactly(const Task *task, __float128 *p, const exact_Cell *c) {
+    int nu = task->nu, nv = task->nv;
+    __float128 most = exact_span_of(p, (nu + 1) * (nv + 1)).most;
+    for (int j = 0; j <= nv; j++)
+        restrict_line(p + j, nv + 1, nu, c->u, c->u + c->wu);
+    for (int i = 0; i <= nu; i++)
+        restrict_line(p + i * (nv + 1), 1, nv, c->v, c->v + c->wv);
+    return 4 * (nu + nv) * (__float128)0x1p-113 * most;
+}
+
+static View view_of(const Ray *ray) {
+    View v = {.k = 0};
+    int exponent;
+    for (int axis = 1; axis < 3; axis++)
+        if (fabs(vec_get(ray->dir, axis)) > fabs(vec_get(ray->dir, v.k)))
+            v.k = axis;
+    v.a = (v.k + 1) % 3, v.b = (v.k + 2) % 3;
+    frexp(vec_get(ray->dir, v.k), &exponent);
+    for (int axis = 0; axis < 3; axis++)
+        v.dir[axis] = ldexp(vec_get(ray->dir, axis), -exponent);
+    v.length = ldexpl(1.0L, -exponent);
+    return v;
+}
+
+// The depths asked for as z of a place that has base and unit. Rounding makes them more.
+static void set_range(Task *task) {
+    Place *at = &task->place;
+    Real a = task->range->t0 / at->unit, b = task->range->t1 / at->unit;
+    Real low = a < b ? a : b, high = a < b ? b : a;
+    low -= 0x1p-60L * fabsl(low) + 0x1p-60L * fabsl(at->base);
+    high += 0x1p-60L * fabsl(high) + 0x1p-60L * fabsl(at->base);
+    at->z_low = nextafter((double)(low - at->base), -INFINITY);
+    at->z_high = nextafter((double)(high - at->base), INFINITY);
+    at->bounded = isfinite(at->z_low) || isfinite(at->z_high);
+}
+
+// ---- Quick: the leaves
+
+// A patch's corner across the ray, and in depth, in units of its scale.
+typedef struct {
+    Real x, y, z;
+    double ex, ey;
+} Corner;
+
+// False: the patch lies too far aside for any crossing, since its points are within 2 scales of the
+// corner across the ray.
+static bool corner_of(const View *view, const OraclePatch *patch, const Ray *ray, Corner *c) {
+    Real q[3];
+    for (int axis = 0; axis < 3; axis++)
+        q[axis] = ((Real)vec_get(patch->corner, axis) - vec_get(ray->org, axis)) * patch->inverse;
+    Real dk = view->dir[view->k], da = view->dir[view->a], db = view->dir[view->b];
+    Real px = q[view->a] * dk, sx = q[view->k] * da, py = q[view->b] * dk, sy = q[view->k] * db;
+    Real ex = 4 * 0x1p-64L * (fabsl(px) + fabsl(sx)), ey = 4 * 0x1p-64L * (fabsl(py) + fabsl(sy));
+    c->x = px - sx, c->y = py - sy, c->z = q[view->k];
+    c->ex = (double)ex, c->ey = (double)ey;
+    return !(fabsl(c->x) - ex > 2.25L) && !(fabsl(c->y) - ey > 2.25L);
+}
+
+// One coordinate across the ray: corner x weight + (net_a d_k - net_k d_a). Returns its error.
+static double lay_across(const Task *task, const OracleLeaf *leaf, int axis, double corner,
+                         double error, double *out) {
+    const View *view = task->view;
+    int count = (task->nu + 1) * (task->nv + 1);
+    const double *p = leaf->net + axis * count, *q = leaf->net + view->k * count;
+    double dk = view->dir[view->k], d = view->dir[axis];
+    if (task->def->weights) {
+        const double *w = leaf->net + 3 * count;
+        for (int n = 0; n < count; n++)
+            out[n] = corner * w[n] + (p[n] * dk - q[n] * d);
+    } else {
+        for (int n = 0; n < count; n++)
+            out[n] = corner + (p[n] * dk - q[n] * d);
+    }
+    // Units of the net's size: its own rounding, product, difference, sum; of the corner's: its own
+    // rounding, the weight's, product, sum.
+    double net = leaf->most[axis] * fabs(dk) + leaf->most[view->k] * fabs(d);
+    double most = fabs(corner) * leaf->most_weight;
+    return 1.001 * 0x1p-53 * (4.0 * net + 4.0 * most) + 2.0 * ORACLE_NET_ERROR +
+           error * leaf->most_weight;
+}
+
+static void search_leaf(Task *task, const Corner *corner, const OracleLeaf *leaf) {
+    int count = (task->nu + 1) * (task->nv + 1);
+    const View *view = task->view;
+    quick_Cell *c = &quick_cells[0];
+    c->ex = lay_across(task, leaf, view->a, (double)corner->x, corner->ex, c->p[0]);
+    quick_Span x = quick_span_of(c->p[0], count);
+    if (quick_one_sign(&x, c->ex))
+        return;
+    c->ey = lay_across(task, leaf, view->b, (double)corner->y, corner->ey, c->p[1]);
+    memcpy(c->p[2], leaf->net + view->k * count, sizeof(double) * (size_t)count);
+    if (task->def->weights)
+        memcpy(c->p[3], leaf->net + 3 * count, sizeof(double) * (size_t)count);
+    c->ez = 1.001 * 0x1p-53 * leaf->most[view->k] + ORACLE_NET_ERROR;
+    c->u = c->v = 0.0;
+    c->wu = c->wv = 1.0;
+    task->place.u = leaf->u, task->place.v = leaf->v;
+    task->place.wu = task->place.wv = leaf->width;
+    int noted = task->cell_count;
+    quick_search_first(task, quick_cells, QUICK_DEPTH);
+    // As cells of the patch: still exact.
+    for (int n = noted; n < task->cell_count && n < OPEN_CELLS; n++) {
+        OpenCell *cell = &task->cells[n];
+        *cell = (OpenCell){leaf->u + leaf->width * cell->u, leaf->v + leaf->width * cell->v,
+                           leaf->width * cell->wu, leaf->width * cell->wv};
+    }
+}
+
+// ---- Fine: small parts
+
+// Where a part lies, exactly.
+typedef struct {
+    __float128 u, v, wu, wv;
+} Part;
+
+static Part part_of(const Part *whole, const OpenCell *cell) {
+    return (Part){whole->u + whole->wu * cell->u, whole->v + whole->wv * cell->v,
+                  whole->wu * cell->wu, whole->wv * cell->wv};
+}
+
+static double fine_weight(const PatchDef *def, int n, int exponent) {
+    return def->weights ? ldexp(def->weights[n], -exponent) : 1.0;
+}
+
+static double fine_size(Fine a) { return fabs(a.h); }
+
+// The whole patch, scaled to at most 1. Returns the unit of depths.
+static Real project_finely(const Task *task, FineNet *net) {
+    const PatchDef *def = task->def;
+    const View *view = task->view;
+    const int axes[3] = {view->a, view->b, view->k};
+    int count = (task->nu + 1) * (task->nv + 1), exponent, heaviest = 0;
+    double most = 0.0, weight = 0.0;
+    for (int n = 0; n < count; n++) {
+        for (int c = 0; c < 3; c++) {
+            Fine q = fine_sum(vec_get(def->points[n], axes[c]), -vec_get(task->ray->org, axes[c]));
+            net->grid[c].h[n] = q.h, net->grid[c].l[n] = q.l;
+            most = fmax(most, fabs(q.h));
+        }
+        weight = def->weights ? fmax(weight, def->weights[n]) : 1.0;
+    }
+    frexp(most, &exponent);
+    if (def->weights)
+        frexp(weight, &heaviest);
+    // Denormal numbers lose their last bits here.
+    net->error[0] = net->error[1] = net->error[2] = 0x1p-1000;
+    double dk = view->dir[view->k];
+    for (int n = 0; n < count; n++) {
+        Fine q[3];
+        double w = fine_weight(def, n, heaviest);
+        for (int c = 0; c < 3; c++) {
+            const FineGrid *g = &net->grid[c];
+            q[c] = fine_times((Fine){ldexp(g->h[n], -exponent), ldexp(g->l[n], -exponent)}, w);
+        }
+        for (int c = 0; c < 2; c++) {
+            Fine p = fine_times(q[c], dk), s = fine_times(q[2], view->dir[axes[c]]);
+            Fine x = fine_sub(p, s);
+            net->grid[c].h[n] = x.h, net->grid[c].l[n] = x.l;
+            net->error[c] = fmax(net->error[c], FINE_UNIT * (fine_size(p) + fine_size(s)));
+        }
+        net->grid[2].h[n] = q[2].h, net->grid[2].l[n] = q[2].l;
+        net->grid[3].h[n] = w, net->grid[3].l[n] = 0.0;
+    }
+    net->error[2] += FINE_UNIT;
+    return ldexpl(1.0L, exponent) * view->length / (Real)dk;
+}
+
+static void restrict_finely(const Task *task, const FineNet *from, const OpenCell *cell,
+                            FineNet *to) {
+    int nu = task->nu, nv = task->nv, count = (nu + 1) * (nv + 1);
+    FineGrid across;
+    for (int c = 0; c < (task->def->weights ? 4 : 3); c++) {
+        fine_restrict(&from->grid[c], nu, nv + 1, cell->u, cell->u + cell->wu, &across);
+        fine_restrict(&across, nv, nu + 1, cell->v, cell->v + cell->wv, &to->grid[c]);
+        if (c < 3)
+            to->error[c] =
+                from->error[c] + (nu + nv) * FINE_UNIT * fine_most(&from->grid[c], count);
+    }
+}
+
+// The whole place as a cell in double: x and y scaled to at most 1, z less what it is at a corner.
+// False: the fine numbers err so much that double is as good as it gets.
+static bool cell_of_net(Task *task, const FineNet *net, quick_Cell *cell) {
+    int count = (task->nu + 1) * (task->nv + 1);
+    double error[2];
+    for (int c = 0; c < 2; c++) {
+        double most = fine_most(&net->grid[c], count);
+        int exponent = -900;
+        if (most > 0x1p-900)
+            frexp(most, &exponent);
+        double scale = ldexp(1.0, -exponent);
+        for (int n = 0; n < count; n++)
+            cell->p[c][n] = net->grid[c].h[n] * scale;
+        error[c] = net->error[c] * scale;
+    }
+    cell->ex = 1.001 * (error[0] + 0x1p-53), cell->ey = 1.001 * (error[1] + 0x1p-53);
+    const FineGrid *z = &net->grid[2], *w = &net->grid[3];
+    double corner = task->def->weights ? z->h[0] / w->h[0] : z->h[0];
+    task->place.base = corner;
+    cell->ez = net->error[2] + FINE_UNIT * (fine_most(z, count) + fabs(corner));
+    double most = 0.0;
+    for (int n = 0; n < count; n++) {
+        Fine weight = {1.0, 0.0};
+        if (task->def->weights)
+            weight = (Fine){w->h[n], w->l[n]};
+        Fine off = fine_sub((Fine){z->h[n], z->l[n]}, fine_times(weight, corner));
+        cell->p[2][n] = off.h;
+        cell->p[3][n] = weight.h;
+        most = fmax(most, fabs(off.h));
+    }
+    cell->ez += 1.001 * 0x1p-53 * most;
+    cell->u = cell->v = 0.0;
+    cell->wu = cell->wv = 1.0;
+    set_range(task);
+    return error[0] < 0x1p-48 && error[1] < 0x1p-48;
+}
+
+// Open cells that touch become one part, unless it is much larger than they are.
+static int join_cells(OpenCell *cells, int count) {
+    for (int i = 0; i < count; i++) {
+        for (int j = i + 1; j < count; j++) {
+            OpenCell *a = &cells[i], *b = &cells[j];
+            double u0 = fmin(a->u, b->u), u1 = fmax(a->u + a->wu, b->u + b->wu);
+            double v0 = fmin(a->v, b->v), v1 = fmax(a->v + a->wv, b->v + b->wv);
+            if (u1 - u0 > a->wu + b->wu || v1 - v0 > a->wv + b->wv ||
+                u1 - u0 > 4.0 * fmin(a->wu, b->wu) || v1 - v0 > 4.0 * fmin(a->wv, b->wv))
+                continue;
+            *a = (OpenCell){u0, v0, u1 - u0, v1 - v0};
+            *b = cells[--count];
+            j = i; // all others once more
+        }
+    }
+    return count;
+}
+
+static void search_exactly(Task *task, const Part *part) {
+    if (!task->projected)
+        project_exactly(task);
+    task->projected = true;
+    // Megabytes, and seldom needed: too much for every thread to have.
+    exact_Cell *c = malloc(EXACT_DEPTH * sizeof *c);
+    if (!c)
+        die("out of memory");
+    size_t size = sizeof c->p[0][0] * (size_t)((task->nu + 1) * (task->nv + 1));
+    for (int m = 0; m < 4; m++)
+        memcpy(c->p[m], exact_whole.p[m], size);
+    c->u = part->u, c->v = part->v, c->wu = part->wu, c->wv = part->wv;
+    c->ex = exact_whole.ex + restrict_exactly(task, c->p[0], c);
+    c->ey = exact_whole.ey + restrict_exactly(task, c->p[1], c);
+    c->ez = exact_whole.ez + restrict_exactly(task, c->p[2], c);
+    if (task->def->weights)
+        restrict_exactly(task, c->p[3], c);
+    task->place = (Place){.wu = 1.0L, .wv = 1.0L, .unit = 1.0L};
+    set_range(task);
+    task->last = true;
+    task->budget = task->exact_parts++ < EXACT_PARTS ? EXACT_BUDGET : 0;
+    exact_search_first(task, c, EXACT_DEPTH);
+    task->last = false;
+    free(c);
+}
+
+// Cells of the part that net tells.
+static void search_finely(Task *task, const FineNet *net, const Part *part, OpenCell *cells,
+                          int count, int level) {
+    count = join_cells(cells, count);
+    for (int n = 0; n < count; n++) {
+        FineNet own;
+        Part where = part_of(part, &cells[n]);
+        bool deep = level == FINE_LEVELS || task->fine_parts++ >= FINE_PARTS;
+        if (!deep) {
+            restrict_finely(task, net, &cells[n], &own);
+            task->place = (Place){.u = (Real)where.u,
+                                  .v = (Real)where.v,
+                                  .wu = (Real)where.wu,
+                                  .wv = (Real)where.wv,
+                                  .unit = task->fine_unit};
+            deep = !cell_of_net(task, &own, &quick_cells[0]);
+        }
+        if (deep) {
+            search_exactly(task, &where);
+            continue;
+        }
+        task->cell_count = 0;
+        task->budget = FINE_BUDGET;
+        quick_search_first(task, quick_cells, QUICK_DEPTH);
+        if (task->cell_count > OPEN_CELLS) {
+            search_exactly(task, &where);
+        } else if (task->cell_count > 0) {
+            OpenCell open[OPEN_CELLS];
+            memcpy(open, task->cells, sizeof open);
+            search_finely(task, &own, &where, open, task->cell_count, level + 1);
+        }
+    }
+}
+
+static void search_open(Task *task) {
+    FineNet net;
+    OpenCell open[OPEN_CELLS] = {{.wu = 1.0, .wv = 1.0}};
+    const Part whole = {.wu = 1, .wv = 1};
+    int count = task->cell_count <= OPEN_CELLS ? task->cell_count : 1;
+    if (task->cell_count <= OPEN_CELLS)
+        memcpy(open, task->cells, sizeof open);
+    task->fine_unit = project_finely(task, &net);
+    search_finely(task, &net, &whole, open, count, 0);
+}
+
+// ---- Patches
+
+// False: the patch lies aside.
+static bool begin(Task *task, const OraclePatch *patch, int number, bool last, Corner *corner) {
+    const View *view = task->view;
+    task->def = patch->def;
+    task->nu = (int)patch->def->degree_u;
+    task->nv = (int)patch->def->degree_v;
+    task->growth = 1.0;
+    for (int n = 0; n < task->nu + task->nv; n++)
+        task->growth *= 1.0 + 2.0 * MARGIN;
+    task->patch = number;
+    task->first = task->out->count;
+    task->cell_count = task->fine_parts = task->exact_parts = 0;
+    task->projected = false;
+    task->last = last;
+    task->budget = QUICK_BUDGET;
+    if (!corner_of(view, patch, task->ray, corner))
+        return false;
+    task->place.base = corner->z;
+    task->place.unit = patch->scale * view->length / (Real)view->dir[view->k];
+    set_range(task);
+    return true;
+}
+
+void ray_oracle_search(RayOracle *oracle, const RayOracleSet *set, const Ray *ray,
+                       RayOracleRange range, RayOraclePrecision precision) {
+    View view = view_of(ray);
+    Task task;
+    Corner corner;
+    OracleWalk walk;
+    const OracleLeaf *leaf;
+    int patch, current = -1;
+    bool met = false;
+    task.ray = ray, task.view = &view, task.range = &range, task.out = oracle;
+    task.cell_count = 0;
+    oracle_walk_begin(&walk, set, ray, range.t0, range.t1, 0.0);
+    while (oracle_walk_next(&walk, &patch, &leaf)) {
+        if (patch != current) {
+            if (task.cell_count > 0 && precision == ORACLE_EXACT)
+                search_open(&task);
+            met = begin(&task, &set->patches[patch], patch, precision == ORACLE_QUICK, &corner);
+            current = patch;
+        }
+        if (met)
+            search_leaf(&task, &corner, leaf);
+    }
+    if (task.cell_count > 0 && precision == ORACLE_EXACT)
+        search_open(&task);
+}
+
 void ray_oracle_find(RayOracle *oracle, const PatchDef *def, const Ray *ray,
                      RayOraclePrecision precision) {
-    Task task = {.def = def, .ray = ray, .out = oracle, .first = oracle->count};
-    task.nu = (int)def->degree_u;
-    task.nv = (int)def->degree_v;
-    int open = oracle->open;
-    task.growth = pow(1.0 + 2.0 * MARGIN, task.nu + task.nv);
-    quick_find(&task, QUICK_BUDGET, QUICK_DEPTH);
-    if (precision == ORACLE_QUICK || !task.cell_count)
+    const RayOracleRange range = {-INFINITY, INFINITY};
+    View view = view_of(ray);
+    Task task;
+    Corner corner;
+    OraclePatch patch;
+    OracleLeaf whole;
+    double net[4 * ORACLE_POINTS];
+    oracle_patch_whole(def, &patch, &whole, net);
+    task.ray = ray, task.view = &view, task.range = &range, task.out = oracle;
+    if (!begin(&task, &patch, 0, precision == ORACLE_QUICK, &corner))
         return;
-    int kept = task.first, noted = task.cell_count;
-    for (int k = task.first; noted <= OPEN_CELLS && k < oracle->count; k++)
-        if (oracle->root[k].kind == ROOT_CERTAIN)
-            oracle->root[kept++] = oracle->root[k];
-    oracle->count = kept;
-    oracle->open = open;
-    OpenCell cells[OPEN_CELLS];
-    memcpy(cells, task.cells, sizeof cells);
-    if (noted <= OPEN_CELLS)
-        exact_find_in(&task, cells, noted, EXACT_BUDGET, DEPTH);
-    else
-        exact_find(&task, EXACT_BUDGET, DEPTH);
+    search_leaf(&task, &corner, &whole);
+    if (task.cell_count > 0 && precision == ORACLE_EXACT)
+        search_open(&task);
+    for (int k = task.first; k < oracle->count; k++)
+        ray_oracle_sine(&oracle->root[k], def, ray);
+}
+
+double ray_oracle_sine(RayOracleRoot *root, const PatchDef *def, const Ray *ray) {
+    if (root->sine >= 0.0)
+        return root->sine;
+    root->sine = 0.0;
+    if (root->kind == ROOT_OPEN)
+        return 0.0;
+    Vec3 s[3];
+    ray_oracle_jet(def, fmin(fmax(root->u, 0.0), 1.0), fmin(fmax(root->v, 0.0), 1.0), s);
+    const long double a[3] = {s[1].x, s[1].y, s[1].z}, b[3] = {s[2].x, s[2].y, s[2].z};
+    const long double d[3] = {ray->dir.x, ray->dir.y, ray->dir.z};
+    long double across = 0, n2 = 0, d2 = 0;
+    for (int k = 0; k < 3; k++) {
+        int i = (k + 1) % 3, j = (k + 2) % 3;
+        long double n = a[i] * b[j] - a[j] * b[i];
+        across += n * d[k];
+        n2 += n * n;
+        d2 += d[k] * d[k];
+    }
+    if (n2 > 0)
+        root->sine = (double)(fabsl(across) / sqrtl(n2 * d2));
+    return root->sine;
 }
 
 void ray_oracle(RayOracle *oracle, const PatchDef *def, const Ray *ray, double t_min,
@@ -184,346 +642,4 @@ void ray_oracle(RayOracle *oracle, const PatchDef *def, const Ray *ray, double t
         if (root->kind == ROOT_CERTAIN && oracle->count < RAY_ORACLE_ROOTS)
             oracle->root[oracle->count++] = *root;
     }
-}
-
-// ---- Near the ray
-
-typedef long double Real;
-
-// Coordinates of a strip, each times the weight, and the weight. CROSS: (P - org) x dir, AXIS: P -
-// org. Where the patch is much longer along one axis than along another, and the ray askew, only
-// these tell places along it from places across.
-enum { ACROSS, OTHER, DEPTH_T, CROSS, AXIS = CROSS + 3, PLACES = AXIS + 3, WEIGHT = PLACES, STRIP };
-
-typedef struct {
-    Real p[STRIP][POINTS];
-} Strip;
-
-typedef struct {
-    int nu, nv;
-    Real reach;                     // lateral
-    Real t0, t1;                    // of one step of depth
-    Real low[PLACES], high[PLACES]; // what no point within reach at these depths can leave
-} Tube;
-
-static void halve_line(Real *low, Real *high, const Real *from, int n, int step) {
-    Real row[SIDE];
-    for (int i = 0; i <= n; i++)
-        row[i] = from[i * step];
-    for (int k = 0; k <= n; k++) {
-        low[k * step] = row[0];
-        high[(n - k) * step] = row[n - k];
-        for (int i = 0; i < n - k; i++)
-            row[i] = 0.5L * (row[i] + row[i + 1]);
-    }
-}
-
-static Real least_of(const Real *p, int count) {
-    Real least = p[0];
-    for (int k = 1; k < count; k++)
-        least = p[k] < least ? p[k] : least;
-    return least;
-}
-
-static Real most_of(const Real *p, int count) {
-    Real most = p[0];
-    for (int k = 1; k < count; k++)
-        most = p[k] > most ? p[k] : most;
-    return most;
-}
-
-static Real larger(Real a, Real b) { return a > b ? a : b; }
-
-static Real step_of(const Strip *s, int c, int a, int b) {
-    return fabsl(s->p[c][a] / s->p[WEIGHT][a] - s->p[c][b] / s->p[WEIGHT][b]);
-}
-
-// Which direction is longer, depth counted as far as it exceeds its step?
-static bool longer_in_u(const Tube *tube, const Strip *s) {
-    int nu = tube->nu, nv = tube->nv, count = (nu + 1) * (nv + 1);
-    Real size[2] = {0, 0};
-    for (int c = ACROSS; c <= DEPTH_T; c++) {
-        Real scale = c < DEPTH_T ? 1 : tube->reach / (tube->t1 - tube->t0);
-        for (int k = 0; k < count; k++) {
-            if (k > nv)
-                size[0] = larger(size[0], scale * nu * step_of(s, c, k, k - nv - 1));
-            if (k % (nv + 1))
-                size[1] = larger(size[1], scale * nv * step_of(s, c, k, k - 1));
-        }
-    }
-    return size[0] >= size[1];
-}
-
-typedef enum { PART_OFF, PART_WITHIN, PART_OPEN } Part;
-
-// Is the strip within reach of the ray, at a depth within half a step of the tube's?
-static Part judge_strip(const Tube *tube, const Strip *s) {
-    int count = (tube->nu + 1) * (tube->nv + 1);
-    Real low[PLACES], high[PLACES];
-    for (int c = 0; c < PLACES; c++) {
-        Real p[POINTS] = {0};
-        for (int k = 0; k < count; k++)
-            p[k] = s->p[c][k] / s->p[WEIGHT][k];
-        low[c] = least_of(p, count);
-        high[c] = most_of(p, count);
-        if (low[c] > tube->high[c] || high[c] < tube->low[c])
-            return PART_OFF;
-    }
-    bool inside = hypotl(larger(-low[0], high[0]), larger(-low[1], high[1])) <= tube->reach;
-    bool level = high[2] - low[2] <= 0.5L * (tube->t1 - tube->t0);
-    if (inside && level)
-        return PART_WITHIN;
-    bool small = high[0] - low[0] <= 0.125L * tube->reach;
-    return level && small && high[1] - low[1] <= 0.125L * tube->reach ? PART_OFF : PART_OPEN;
-}
-
-enum { NEAR_DEPTH = 160 };
-
-// Has strips[0] a part that is? Of each halved one both halves are looked at, one after the other;
-// there is room for NEAR_DEPTH + 2.
-static bool enters(const Tube *tube, Strip *strips) {
-    int nu = tube->nu, nv = tube->nv, count = (nu + 1) * (nv + 1), top = 1, budget = NEAR_BUDGET;
-    while (top > 0 && budget-- > 0) {
-        Strip *s = &strips[top - 1];
-        Part part = judge_strip(tube, s);
-        if (part == PART_WITHIN)
-            return true;
-        if (part == PART_OFF || top > NEAR_DEPTH) {
-            top--;
-            continue;
-        }
-        bool along_u = longer_in_u(tube, s);
-        for (int c = 0; c < STRIP; c++) {
-            // halve_line() has read a line before it writes it.
-            Real *p = s->p[c], *b = strips[top].p[c];
-            for (int k = 0; along_u && k <= nv; k++)
-                halve_line(p + k, b + k, p + k, nu, nv + 1);
-            for (int k = 0; !along_u && k < count; k += nv + 1)
-                halve_line(p + k, b + k, p + k, nv, 1);
-        }
-        top++;
-    }
-    return false;
-}
-
-// A frame across the ray, and along it.
-typedef struct {
-    Real e1[3], e2[3], w[3], length;
-} Frame;
-
-static Frame frame_of(const Ray *ray) {
-    Frame f;
-    const Real d[3] = {ray->dir.x, ray->dir.y, ray->dir.z};
-    f.length = sqrtl(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
-    for (int i = 0; i < 3; i++)
-        f.w[i] = d[i] / f.length;
-    int least = fabsl(f.w[0]) <= fabsl(f.w[1]) ? 0 : 1;
-    least = fabsl(f.w[2]) < fabsl(f.w[least]) ? 2 : least;
-    int next = (least + 1) % 3, last = (least + 2) % 3;
-    Real n = sqrtl(f.w[next] * f.w[next] + f.w[last] * f.w[last]);
-    f.e1[least] = 0;
-    f.e1[next] = -f.w[last] / n;
-    f.e1[last] = f.w[next] / n;
-    for (int i = 0; i < 3; i++)
-        f.e2[i] = f.w[(i + 1) % 3] * f.e1[(i + 2) % 3] - f.w[(i + 2) % 3] * f.e1[(i + 1) % 3];
-    return f;
-}
-
-static Real along(const Real a[3], const Real b[3]) {
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-static void lay_along(const PatchDef *def, const Ray *ray, const Frame *f, Tube *tube, Strip *s) {
-    const Real d[3] = {ray->dir.x, ray->dir.y, ray->dir.z};
-    for (uint32_t k = 0; k < (def->degree_u + 1) * (def->degree_v + 1); k++) {
-        Real q[3], w = def->weights ? def->weights[k] : 1.0;
-        for (int axis = 0; axis < 3; axis++)
-            q[axis] = (Real)vec_get(def->points[k], axis) - vec_get(ray->org, axis);
-        s->p[ACROSS][k] = w * along(q, f->e1);
-        s->p[OTHER][k] = w * along(q, f->e2);
-        s->p[DEPTH_T][k] = w * along(q, f->w) / f->length;
-        for (int axis = 0; axis < 3; axis++) {
-            int a = (axis + 1) % 3, b = (axis + 2) % 3;
-            s->p[CROSS + axis][k] = w * (q[a] * d[b] - q[b] * d[a]);
-            s->p[AXIS + axis][k] = w * q[axis];
-        }
-        s->p[WEIGHT][k] = w;
-    }
-    tube->low[ACROSS] = tube->low[OTHER] = -tube->reach;
-    tube->high[ACROSS] = tube->high[OTHER] = tube->reach;
-    tube->low[DEPTH_T] = tube->t0;
-    tube->high[DEPTH_T] = tube->t1;
-    for (int axis = 0; axis < 3; axis++) {
-        Real most = tube->reach * (fabsl(d[(axis + 1) % 3]) + fabsl(d[(axis + 2) % 3]));
-        tube->low[CROSS + axis] = -most;
-        tube->high[CROSS + axis] = most;
-        Real a = tube->t0 * d[axis], b = tube->t1 * d[axis];
-        tube->low[AXIS + axis] = (a < b ? a : b) - tube->reach;
-        tube->high[AXIS + axis] = (a < b ? b : a) + tube->reach;
-    }
-}
-
-bool ray_oracle_near(const PatchDef *defs, int count, const Ray *ray, double t0, double t1,
-                     double reach) {
-    enum { STEPS = 16 };
-    if (!(t0 < t1))
-        return true;
-    Frame f = frame_of(ray);
-    // 7 MB at the highest degrees: too much for the stack of a thread.
-    Strip *strips = malloc((NEAR_DEPTH + 2) * sizeof *strips);
-    bool all = strips != NULL;
-    Real step = ((Real)t1 - (Real)t0) / STEPS, pad = reach / f.length;
-    for (int n = 0; all && n < STEPS; n++) {
-        int at = 7 * (n + 1) % STEPS; // not in order: where it fails, it fails far from the ends
-        bool found = false;
-        for (int k = 0; k < count && !found; k++) {
-            Tube tube = {.nu = (int)defs[k].degree_u,
-                         .nv = (int)defs[k].degree_v,
-                         .reach = reach,
-                         .t0 = t0 + at * step - pad,
-                         .t1 = t0 + (at + 1) * step + pad};
-            lay_along(&defs[k], ray, &f, &tube, &strips[0]);
-            found = enters(&tube, strips);
-        }
-        all = found;
-    }
-    free(strips);
-    return all;
-}
-
-// ---- Points
-
-// Bernstein polynomials of degree n, and n times those of degree n - 1, which the differences of
-// control points have in the derivative: equal points have the derivative 0 exactly. All terms are
-// >= 0 for t in [0,1], so a sum of them keeps its relative accuracy, that of weights too.
-static void basis(int n, Real t, Real *value, Real *slope) {
-    Real low[SIDE] = {1};
-    for (int m = 1; m < n; m++) {
-        for (int i = m; i > 0; i--)
-            low[i] = (i < m ? low[i] * (1 - t) : 0) + low[i - 1] * t;
-        low[0] *= 1 - t;
-    }
-    for (int i = 0; i <= n; i++) {
-        value[i] = (i < n ? low[i] * (1 - t) : 0) + (i > 0 ? low[i - 1] * t : 0);
-        slope[i] = i < n ? n * low[i] : 0;
-    }
-}
-
-typedef struct {
-    Real u[SIDE], v[SIDE], slope_u[SIDE], slope_v[SIDE];
-} Basis;
-
-// One axis less `from`, times the weights; axis 3: the weights. out[1] and out[2], the derivatives,
-// only when asked for.
-static void coordinate(const PatchDef *def, const Basis *b, int axis, double from, bool slopes,
-                       Real out[3]) {
-    int nu = (int)def->degree_u, nv = (int)def->degree_v;
-    Real before = 0;
-    out[0] = out[1] = out[2] = 0;
-    for (int i = 0; i <= nu; i++) {
-        Real row = 0, slope = 0, last = 0;
-        for (int j = 0; j <= nv; j++) {
-            int k = i * (nv + 1) + j;
-            Real p = axis < 3 ? (Real)vec_get(def->points[k], axis) - from : 1;
-            if (def->weights)
-                p *= def->weights[k];
-            row += b->v[j] * p;
-            if (slopes && j > 0)
-                slope += b->slope_v[j - 1] * (p - last);
-            last = p;
-        }
-        out[0] += b->u[i] * row;
-        if (i > 0)
-            out[1] += b->slope_u[i - 1] * (row - before);
-        out[2] += b->u[i] * slope;
-        before = row;
-    }
-}
-
-// The point less `from`, and the derivatives if asked for.
-static void jet_less(const PatchDef *def, Vec3 from, Real u, Real v, bool slopes, Real s[3][3]) {
-    Basis b;
-    Real w[3] = {1, 0, 0};
-    basis((int)def->degree_u, u, b.u, b.slope_u);
-    basis((int)def->degree_v, v, b.v, b.slope_v);
-    if (def->weights)
-        coordinate(def, &b, 3, 0.0, slopes, w);
-    for (int axis = 0; axis < 3; axis++) {
-        coordinate(def, &b, axis, vec_get(from, axis), slopes, s[axis]);
-        s[axis][0] /= w[0];
-        for (int k = 1; k < 3; k++)
-            s[axis][k] = (s[axis][k] - s[axis][0] * w[k]) / w[0];
-    }
-}
-
-void ray_oracle_jet(const PatchDef *def, double u, double v, Vec3 out[3]) {
-    Real s[3][3];
-    jet_less(def, vec3(0.0, 0.0, 0.0), u, v, true, s);
-    for (int k = 0; k < 3; k++)
-        out[k] = vec3((double)s[0][k], (double)s[1][k], (double)s[2][k]);
-}
-
-double ray_oracle_residual(const PatchDef *def, const Ray *ray, double t, double u, double v) {
-    Real s[3][3], square = 0;
-    jet_less(def, ray->org, u, v, false, s);
-    for (int axis = 0; axis < 3; axis++) {
-        Real off = (Real)t * vec_get(ray->dir, axis) - s[axis][0];
-        square += off * off;
-    }
-    return (double)sqrtl(square);
-}
-
-// Moves (u,v) towards the ray by the shortest way, as far as the larger tangent across it leads, in
-// so many steps.
-// Returns what is left of the distance, and how far along the ray that is.
-static Real approach(const PatchDef *def, const Ray *ray, const Frame *f, int steps, Real at[2],
-                     Real *depth) {
-    Real off = 0;
-    for (int step = 0; step <= steps; step++) {
-        Real s[3][3], q[3], su[3], sv[3];
-        jet_less(def, ray->org, at[0], at[1], true, s);
-        for (int axis = 0; axis < 3; axis++)
-            q[axis] = s[axis][0], su[axis] = s[axis][1], sv[axis] = s[axis][2];
-        Real x = along(q, f->e1), y = along(q, f->e2);
-        Real xu = along(su, f->e1), yu = along(su, f->e2), xv = along(sv, f->e1),
-             yv = along(sv, f->e2);
-        off = hypotl(x, y);
-        *depth = along(q, f->w);
-        // (J J^T + damping)^-1 (x, y)
-        Real a = xu * xu + xv * xv, b = xu * yu + xv * yv, c = yu * yu + yv * yv;
-        Real damping = 1e-12L * (a + c);
-        a += damping, c += damping;
-        Real det = a * c - b * b, p = (c * x - b * y) / det, r = (a * y - b * x) / det;
-        if (!(det > 0) || step == steps)
-            break;
-        at[0] = fminl(fmaxl(at[0] - (xu * p + yu * r), 0), 1);
-        at[1] = fminl(fmaxl(at[1] - (xv * p + yv * r), 0), 1);
-    }
-    return off;
-}
-
-// The straight way, each place moved towards the ray.
-static bool way_within(const PatchDef *def, const Ray *ray, const double from[2],
-                       const double to[2], double reach, int steps) {
-    enum { PLACES_ON_WAY = 32 };
-    Frame f = frame_of(ray);
-    Real depth[PLACES_ON_WAY + 1];
-    for (int n = 0; n <= PLACES_ON_WAY; n++) {
-        Real share = (Real)n / PLACES_ON_WAY;
-        Real at[2] = {from[0] + share * ((Real)to[0] - from[0]),
-                      from[1] + share * ((Real)to[1] - from[1])};
-        if (!(approach(def, ray, &f, steps, at, &depth[n]) <= reach))
-            return false;
-    }
-    // Between two crossings apart all would have come to either, with one step from this to that.
-    Real most = fabsl(depth[PLACES_ON_WAY] - depth[0]) / 8 + reach;
-    for (int n = 1; n <= PLACES_ON_WAY; n++)
-        if (!(fabsl(depth[n] - depth[n - 1]) <= most))
-            return false;
-    return true;
-}
-
-bool ray_oracle_way(const PatchDef *def, const Ray *ray, const double from[2], const double to[2],
-                    double reach) {
-    return way_within(def, ray, from, to, reach, 0) || way_within(def, ray, from, to, reach, 4);
 }

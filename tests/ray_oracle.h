@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
-// All crossings of a ray with one patch, by exact subdivision: slow, nothing in common with the
-// methods under test, and certified. Each step bounds its own rounding; what double with that bound
-// can't tell is done again in __float128 (113 bits) when the caller asks for it. So the answer does
-// not depend on any tolerance, and judges the extremes too (tiny, far away, thin, grazing).
+// All crossings of a ray with patches, by exact subdivision: nothing in common with the methods
+// under test, and certified. Each step bounds its own rounding; what double with that bound can't
+// tell is done again with 106 bits and in __float128 (113 bits) when the caller asks for it. So the
+// answer does not depend on any tolerance, and judges the extremes too (tiny, far away, thin,
+// grazing).
 #ifndef TESTS_RAY_ORACLE_H
 #define TESTS_RAY_ORACLE_H
 
+#include "base/arena.h"
 #include "patch/patch.h"
 
 enum { RAY_ORACLE_ROOTS = 64 };
@@ -18,9 +20,10 @@ typedef enum {
 
 typedef struct {
     RayOracleKind kind;
+    int patch; // its place in the set
     double t, u, v;
     double dt, du, dv; // uncertainty of each
-    double sine;       // of the angle between ray and surface, 0: grazing or not known
+    double sine;       // see ray_oracle_sine()
 } RayOracleRoot;
 
 typedef struct {
@@ -32,11 +35,26 @@ typedef struct {
 
 typedef enum {
     ORACLE_QUICK, // double; rough about what rounding hides
-    ORACLE_EXACT, // __float128
+    ORACLE_EXACT, // as far as __float128 goes
 } RayOraclePrecision;
 
-// Adds the crossings of the whole line, behind the origin too, with any t. Direction not zero,
-// everything finite.
+// Patches made ready for many rays, in the arena; defs must stay.
+typedef struct RayOracleSet RayOracleSet;
+RayOracleSet *ray_oracle_prepare(Arena *arena, const PatchDef *defs, int count);
+
+// Crossings at other depths may be left out: nobody asks for them.
+typedef struct {
+    double t0, t1;
+} RayOracleRange;
+
+// Adds the crossings with all patches. Direction not zero, everything finite.
+void ray_oracle_search(RayOracle *oracle, const RayOracleSet *set, const Ray *ray,
+                       RayOracleRange range, RayOraclePrecision precision);
+
+// The sine of the angle between ray and surface at a root, which keeps it; 0: grazing or not known.
+double ray_oracle_sine(RayOracleRoot *root, const PatchDef *def, const Ray *ray);
+
+// The same for one patch, the whole line, behind the origin too; with the sines.
 void ray_oracle_find(RayOracle *oracle, const PatchDef *def, const Ray *ray,
                      RayOraclePrecision precision);
 

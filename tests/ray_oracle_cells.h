@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: MIT
 // The search of ray_oracle.c, written once for two kinds of numbers. Included twice, with
 //   REAL, UNIT   the cells' numbers, and the rounding of one operation relative to its result
-//   WIDE, WIDE_UNIT  the numbers in which the ray is projected
+//   WIDE, WIDE_UNIT  those in which the place in the patch is told
 //   NAME(x)      the name with the kind's suffix
 //
-// In the plane across the ray S = (x, y), and roots are x = y = 0. Cells are halved; each carries a
-// bound of the rounding of its coefficients (ex, ey). With J the mean Jacobian over a cell, local
-// parameters (p,q) in [0,1]^2 and the Lipschitz constant L of the remainder F(p,q) - (p,q), where
-// F = J^-1 (x, y):
+// In the plane across the ray S = (x, y), and roots are x = y = 0. Cells of a place (a part of the
+// patch, parameters [0,1]^2) are halved; each carries a bound of the rounding of its coefficients
+// (ex, ey). With J the mean Jacobian over a cell, local parameters (p,q) in [0,1]^2 and the
+// Lipschitz constant L of the remainder F(p,q) - (p,q), where F = J^-1 (x, y):
 //   no root      the coefficients have one sign, or -remainder misses [0,1], or |F| at the middle
-//   is
-//                more than (1 + L)/2;
+//                is more than (1 + L)/2;
 //   one at most  L < 1, also over the cell enlarged by MARGIN to each side, over which a polynomial
 //                of degree n grows by (1 + 2 MARGIN)^n at most;
 //   one          (L < 1 and) |F| <= (1 - L) r at a point whose box of radius r lies in the enlarged
@@ -18,43 +17,43 @@
 // What can be shown neither way at the size of the rounding stays open.
 
 typedef struct {
-    REAL x[POINTS], y[POINTS];
-    REAL u, v, wu, wv; // the cell is [u, u + wu] x [v, v + wv]: halvings, so exact
-    REAL ex, ey;
+    REAL p[4][ORACLE_POINTS]; // x, y, z: depth, times the weights, and the weights (rational only)
+    REAL u, v, wu, wv;        // the cell is [u, u + wu] x [v, v + wv]: halvings, so exact
+    REAL ex, ey, ez;
 } NAME(Cell);
 
 typedef struct {
-    NAME(Cell) cells[DEPTH + 2];
-    REAL z[POINTS], w[POINTS]; // t of the control points, times their weights; the weights
-    REAL ez, slope_u, slope_v; // rounding of t; bounds of |dt/du| and |dt/dv|
-    NAME(Cell) whole;
-} NAME(Work);
-
-static _Thread_local NAME(Work) NAME(work);
+    REAL low, high, most;
+} NAME(Span);
 
 static inline REAL NAME(abs)(REAL a) { return a < 0 ? -a : a; }
 static inline REAL NAME(max)(REAL a, REAL b) { return a > b ? a : b; }
+static inline REAL NAME(min)(REAL a, REAL b) { return a < b ? a : b; }
 
-static inline REAL NAME(most)(const REAL *p, int count) {
-    REAL most = 0;
-    for (int k = 0; k < count; k++)
-        most = NAME(max)(most, NAME(abs)(p[k]));
-    return most;
-}
-
-static inline bool NAME(one_sign)(const REAL *p, int count, REAL error) {
-    REAL low = p[0], high = p[0];
-    for (int k = 1; k < count; k++) {
-        low = p[k] < low ? p[k] : low;
-        high = p[k] > high ? p[k] : high;
+static inline NAME(Span) NAME(span_of)(const REAL *p, int count) {
+    // Four at a time, so that none waits for the one before.
+    REAL low[4], high[4];
+    for (int n = 0; n < 4; n++)
+        low[n] = high[n] = p[n];
+    for (int k = 4; k < count; k++) {
+        low[k % 4] = NAME(min)(p[k], low[k % 4]);
+        high[k % 4] = NAME(max)(p[k], high[k % 4]);
     }
-    return low > error || high < -error;
+    NAME(Span)
+    s = {NAME(min)(NAME(min)(low[0], low[1]), NAME(min)(low[2], low[3])),
+         NAME(max)(NAME(max)(high[0], high[1]), NAME(max)(high[2], high[3])), 0};
+    s.most = NAME(max)(NAME(abs)(s.low), NAME(abs)(s.high));
+    return s;
 }
 
-static inline void NAME(halve_line)(REAL *low, REAL *high, const REAL *from, int n, int step) {
-    REAL row[SIDE];
+static inline bool NAME(one_sign)(const NAME(Span) * s, REAL error) {
+    return s->low > error || s->high < -error;
+}
+
+static inline void NAME(halve_line)(REAL *low, REAL *high, int n, int step) {
+    REAL row[ORACLE_SIDE];
     for (int i = 0; i <= n; i++)
-        row[i] = from[i * step];
+        row[i] = low[i * step];
     for (int k = 0; k <= n; k++) {
         low[k * step] = row[0];
         high[(n - k) * step] = row[n - k];
@@ -63,36 +62,28 @@ static inline void NAME(halve_line)(REAL *low, REAL *high, const REAL *from, int
     }
 }
 
-// An average errs by UNIT of its value, and there are n levels of them.
-static inline void NAME(halve)(int nu, int nv, const NAME(Cell) * from, bool along_u,
-                               NAME(Cell) * low, NAME(Cell) * high) {
-    int count = (nu + 1) * (nv + 1), n = along_u ? nu : nv;
-    const REAL *p[2] = {from->x, from->y};
-    REAL *a[2] = {low->x, low->y}, *b[2] = {high->x, high->y};
-    for (int c = 0; c < 2; c++) {
-        if (along_u) {
-            for (int j = 0; j <= nv; j++)
-                NAME(halve_line)(a[c] + j, b[c] + j, p[c] + j, nu, nv + 1);
-        } else {
-            for (int i = 0; i < count; i += nv + 1)
-                NAME(halve_line)(a[c] + i, b[c] + i, p[c] + i, nv, 1);
-        }
+// An average errs by UNIT of its value, and there are n levels of them. One half replaces the cell,
+// the other goes to `high`.
+static inline void NAME(halve)(const Task *task, int nu, int nv, bool along_u, const REAL most[3],
+                               NAME(Cell) * cell, NAME(Cell) * high) {
+    int n = along_u ? nu : nv, count = (nu + 1) * (nv + 1);
+    for (int c = 0; c < (task->def->weights ? 4 : 3); c++) {
+        for (int j = 0; along_u && j <= nv; j++)
+            NAME(halve_line)(cell->p[c] + j, high->p[c] + j, nu, nv + 1);
+        for (int i = 0; !along_u && i < count; i += nv + 1)
+            NAME(halve_line)(cell->p[c] + i, high->p[c] + i, nv, 1);
     }
-    REAL ex = from->ex + n * UNIT * NAME(most)(from->x, count);
-    REAL ey = from->ey + n * UNIT * NAME(most)(from->y, count);
-    REAL u = from->u, v = from->v;
-    REAL wu = along_u ? (REAL)0.5 * from->wu : from->wu;
-    REAL wv = along_u ? from->wv : (REAL)0.5 * from->wv;
-    low->u = u, low->v = v;
-    high->u = along_u ? u + wu : u, high->v = along_u ? v : v + wv;
-    low->wu = high->wu = wu;
-    low->wv = high->wv = wv;
-    low->ex = high->ex = ex;
-    low->ey = high->ey = ey;
+    high->ex = cell->ex += n * UNIT * most[0];
+    high->ey = cell->ey += n * UNIT * most[1];
+    high->ez = cell->ez += n * UNIT * most[2];
+    *(along_u ? &cell->wu : &cell->wv) *= (REAL)0.5;
+    high->wu = cell->wu, high->wv = cell->wv;
+    high->u = along_u ? cell->u + cell->wu : cell->u;
+    high->v = along_u ? cell->v : cell->v + cell->wv;
 }
 
 static inline REAL NAME(curve)(const REAL *p, int step, int n, REAL t, REAL *slope) {
-    REAL row[SIDE];
+    REAL row[ORACLE_SIDE];
     row[0] = p[0];
     *slope = 0;
     for (int i = 1; i <= n; i++)
@@ -110,7 +101,7 @@ static inline REAL NAME(curve)(const REAL *p, int step, int n, REAL t, REAL *slo
 // (1 + 2 |t|) each when t lies outside of [0,1] a little: 8 (nu + nv) UNIT max|p| covers it.
 static inline REAL NAME(surface)(int nu, int nv, const REAL *p, REAL u, REAL v, REAL *pu,
                                  REAL *pv) {
-    REAL row[SIDE] = {0}, slope[SIDE] = {0}, none;
+    REAL row[ORACLE_SIDE] = {0}, slope[ORACLE_SIDE] = {0}, none;
     for (int i = 0; i <= nu; i++)
         row[i] = NAME(curve)(p + i * (nv + 1), 1, nv, v, &slope[i]);
     *pv = NAME(curve)(slope, 1, nu, u, &none);
@@ -128,17 +119,30 @@ static inline void NAME(trends)(int nu, int nv, const REAL *p, REAL *pu, REAL *p
     *pv = b / (nu + 1);
 }
 
+// The longest step between neighbours, along u and along v.
+static inline void NAME(steps)(int nu, int nv, const REAL *p, REAL *along_u, REAL *along_v) {
+    REAL du = 0, dv = 0;
+    for (int k = nv + 1; k < (nu + 1) * (nv + 1); k++)
+        du = NAME(max)(NAME(abs)(p[k] - p[k - nv - 1]), du);
+    for (int i = 0; i <= nu; i++)
+        for (int k = i * (nv + 1); k < i * (nv + 1) + nv; k++)
+            dv = NAME(max)(NAME(abs)(p[k + 1] - p[k]), dv);
+    *along_u = du, *along_v = dv;
+}
+
 // F's rows: bx x + by y.
 typedef struct {
     REAL ax, ay, bx, by;
     REAL ea, eb; // error of either, coefficients and arithmetic
     REAL lipschitz;
+    bool hidden; // which side of the line the cell lies on is a matter of rounding only
 } NAME(Map);
 
 // Span and Lipschitz constant of one remainder.
-static inline void NAME(remainder)(int nu, int nv, const REAL *x, const REAL *y, REAL fx, REAL fy,
-                                   bool along_u, REAL span[2], REAL *lipschitz) {
-    REAL r[POINTS], du = 0, dv = 0;
+static inline NAME(Span) NAME(remainder)(int nu, int nv, const NAME(Cell) * c, REAL fx, REAL fy,
+                                         bool along_u, REAL *lipschitz) {
+    REAL r[ORACLE_POINTS], du, dv;
+    const REAL *x = c->p[0], *y = c->p[1];
     r[0] = 0;
     for (int i = 0; i <= nu; i++) {
         for (int j = 0; j <= nv; j++) {
@@ -147,54 +151,51 @@ static inline void NAME(remainder)(int nu, int nv, const REAL *x, const REAL *y,
             r[k] = fx * x[k] + fy * y[k] - linear;
         }
     }
-    span[0] = span[1] = r[0];
-    for (int k = 1; k < (nu + 1) * (nv + 1); k++) {
-        span[0] = r[k] < span[0] ? r[k] : span[0];
-        span[1] = r[k] > span[1] ? r[k] : span[1];
-    }
-    for (int k = nv + 1; k < (nu + 1) * (nv + 1); k++)
-        du = NAME(max)(du, NAME(abs)(r[k] - r[k - nv - 1]));
-    for (int i = 0; i <= nu; i++)
-        for (int j = 1; j <= nv; j++)
-            dv = NAME(max)(dv, NAME(abs)(r[i * (nv + 1) + j] - r[i * (nv + 1) + j - 1]));
+    NAME(steps)(nu, nv, r, &du, &dv);
     *lipschitz = nu * du + nv * dv;
+    return NAME(span_of)(r, (nu + 1) * (nv + 1));
 }
 
 // Do all points lie on one side of the line through the origin along the longer of two directions?
-static inline bool NAME(aside)(const NAME(Cell) * c, int count, REAL xu, REAL yu, REAL xv,
-                               REAL yv) {
+static inline bool NAME(aside)(const NAME(Cell) * c, int count, const REAL most[3],
+                               const REAL trend[4], NAME(Map) * map) {
+    REAL xu = trend[0], xv = trend[1], yu = trend[2], yv = trend[3], r[ORACLE_POINTS];
     bool first = NAME(abs)(xu) + NAME(abs)(yu) >= NAME(abs)(xv) + NAME(abs)(yv);
-    REAL gx = first ? xu : xv, gy = first ? yu : yv, r[POINTS];
+    REAL gx = first ? xu : xv, gy = first ? yu : yv;
     r[0] = 0;
     for (int k = 0; k < count; k++)
-        r[k] = gx * c->y[k] - gy * c->x[k];
-    REAL error = NAME(abs)(gx) * (c->ey + 4 * UNIT * NAME(most)(c->y, count)) +
-                 NAME(abs)(gy) * (c->ex + 4 * UNIT * NAME(most)(c->x, count));
-    return NAME(one_sign)(r, count, error);
+        r[k] = gx * c->p[1][k] - gy * c->p[0][k];
+    REAL error =
+        NAME(abs)(gx) * (c->ey + 4 * UNIT * most[1]) + NAME(abs)(gy) * (c->ex + 4 * UNIT * most[0]);
+    NAME(Span) s = NAME(span_of)(r, count);
+    map->hidden = error > 0 && s.most <= 4 * error;
+    return NAME(one_sign)(&s, error);
 }
 
 // False: no root in the cell. map->lipschitz is above 1 when J is no help.
-static inline bool NAME(reduce)(int nu, int nv, const NAME(Cell) * c, NAME(Map) * map) {
+static inline bool NAME(reduce)(int nu, int nv, const NAME(Cell) * c, const REAL most[3],
+                                NAME(Map) * map) {
     int count = (nu + 1) * (nv + 1);
-    REAL xu, xv, yu, yv, mx = NAME(most)(c->x, count), my = NAME(most)(c->y, count);
-    *map = (NAME(Map)){.lipschitz = 9};
-    NAME(trends)(nu, nv, c->x, &xu, &xv);
-    NAME(trends)(nu, nv, c->y, &yu, &yv);
-    if (NAME(aside)(c, count, xu, yu, xv, yv))
+    REAL trend[4];
+    map->lipschitz = 9;
+    NAME(trends)(nu, nv, c->p[0], &trend[0], &trend[1]);
+    NAME(trends)(nu, nv, c->p[1], &trend[2], &trend[3]);
+    if (NAME(aside)(c, count, most, trend, map))
         return false;
+    REAL xu = trend[0], xv = trend[1], yu = trend[2], yv = trend[3];
     REAL det = xu * yv - xv * yu, scale = NAME(abs)(xu * yv) + NAME(abs)(xv * yu);
     if (!(NAME(abs)(det) > 64 * UNIT * scale))
         return true;
     map->ax = yv / det, map->ay = -xv / det, map->bx = -yu / det, map->by = xu / det;
-    REAL tx = c->ex + 4 * UNIT * mx, ty = c->ey + 4 * UNIT * my;
+    REAL tx = c->ex + 4 * UNIT * most[0], ty = c->ey + 4 * UNIT * most[1];
     map->ea = NAME(abs)(map->ax) * tx + NAME(abs)(map->ay) * ty + 4 * UNIT;
     map->eb = NAME(abs)(map->bx) * tx + NAME(abs)(map->by) * ty + 4 * UNIT;
-    REAL span[2], lipschitz[2];
-    NAME(remainder)(nu, nv, c->x, c->y, map->ax, map->ay, true, span, &lipschitz[0]);
-    if (-span[1] - map->ea > 1 || -span[0] + map->ea < 0)
+    REAL lipschitz[2];
+    NAME(Span) a = NAME(remainder)(nu, nv, c, map->ax, map->ay, true, &lipschitz[0]);
+    if (-a.high - map->ea > 1 || -a.low + map->ea < 0)
         return false;
-    NAME(remainder)(nu, nv, c->x, c->y, map->bx, map->by, false, span, &lipschitz[1]);
-    if (-span[1] - map->eb > 1 || -span[0] + map->eb < 0)
+    NAME(Span) b = NAME(remainder)(nu, nv, c, map->bx, map->by, false, &lipschitz[1]);
+    if (-b.high - map->eb > 1 || -b.low + map->eb < 0)
         return false;
     map->lipschitz =
         NAME(max)(lipschitz[0], lipschitz[1]) + 2 * (nu + nv) * NAME(max)(map->ea, map->eb);
@@ -208,59 +209,99 @@ static inline REAL NAME(residual)(int nu, int nv, const NAME(Map) * map, REAL x,
     return NAME(max)(a + times * map->ea, b + times * map->eb);
 }
 
-static void NAME(add)(Task *task, REAL u, REAL v, REAL ru, REAL rv, RayOracleKind kind) {
-    REAL tu, tv, t = NAME(surface)(task->nu, task->nv, NAME(work).z, u, v, &tu, &tv);
-    if (task->def->weights)
-        t /= NAME(surface)(task->nu, task->nv, NAME(work).w, u, v, &tu, &tv);
-    REAL dt = NAME(work).ez + NAME(work).slope_u * ru + NAME(work).slope_v * rv;
+// ---- Depths
+
+// z of a point of the cell, and its error when the point is uncertain by (rp, rq).
+static REAL NAME(depth)(const Task *task, const NAME(Cell) * c, REAL p, REAL q, REAL rp, REAL rq,
+                        REAL *error) {
+    int nu = task->nu, nv = task->nv, count = (nu + 1) * (nv + 1);
+    REAL zu, zv, wu = 0, wv = 0, least = 1;
+    REAL z = NAME(surface)(nu, nv, c->p[2], p, q, &zu, &zv), off = c->ez;
+    off += 8 * (nu + nv) * UNIT * NAME(span_of)(c->p[2], count).most;
+    NAME(steps)(nu, nv, c->p[2], &zu, &zv);
+    if (task->def->weights) {
+        REAL none, far = 0;
+        NAME(Span) w = NAME(span_of)(c->p[3], count);
+        NAME(steps)(nu, nv, c->p[3], &wu, &wv);
+        for (int k = 0; k < count; k++)
+            far = NAME(max)(NAME(abs)(c->p[2][k] / c->p[3][k]), far);
+        off += 16 * (nu + nv) * UNIT * far * w.most;
+        z /= NAME(surface)(nu, nv, c->p[3], p, q, &none, &none);
+        least = w.low;
+        zu += far * wu, zv += far * wv;
+    }
+    // z = N / W, N = sum w z B: |N'| and |W'| come from differences. The cell is enlarged by
+    // MARGIN.
+    *error = (off + (REAL)task->growth * (nu * zu * rp + nv * zv * rq)) / least;
+    return z;
+}
+
+static void NAME(add)(Task *task, WIDE u, WIDE v, WIDE ru, WIDE rv, REAL z, REAL ez,
+                      RayOracleKind kind) {
+    const Place *at = &task->place;
+    long double t = (at->base + (long double)z) * at->unit;
+    long double dt = fabsl((long double)ez * at->unit) + 0x1p-62L * fabsl(at->base * at->unit);
     add_item(task, (double)t, (double)dt, (double)u, (double)v, (double)ru, (double)rv, kind);
 }
 
-// Control points of the part [a,b] of a curve: the blossom of a and b, k times b. In place.
-static inline void NAME(restrict_line)(REAL *p, int step, int n, REAL a, REAL b) {
-    REAL out[SIDE];
-    for (int k = 0; k <= n; k++) {
-        REAL row[SIDE];
-        for (int i = 0; i <= n; i++)
-            row[i] = p[i * step];
-        for (int level = n; level > 0; level--) {
-            REAL t = level > k ? a : b;
-            for (int i = 0; i < level; i++)
-                row[i] = (1 - t) * row[i] + t * row[i + 1];
-        }
-        out[k] = row[0];
+// Is it all at depths that were not asked for?
+static inline bool NAME(elsewhere)(const Task *task, int count, const NAME(Cell) * c) {
+    const Place *at = &task->place;
+    REAL low = (REAL)at->z_low, high = (REAL)at->z_high, more = 0, less = 0;
+    const REAL *z = c->p[2], *w = c->p[3];
+    if (!task->def->weights) {
+        NAME(Span) s = NAME(span_of)(z, count);
+        return s.low - c->ez > high || s.high + c->ez < low;
     }
-    for (int k = 0; k <= n; k++)
-        p[k * step] = out[k];
+    for (int k = 0; k < count; k++) {
+        more += !(z[k] - c->ez > high * w[k] + 4 * UNIT * NAME(abs)(high * w[k]));
+        less += !(z[k] + c->ez < low * w[k] - 4 * UNIT * NAME(abs)(low * w[k]));
+    }
+    return more == 0 || less == 0;
 }
 
-// One level of that errs by 3 UNIT of the largest value: 4 (nu + nv) UNIT in all.
-static void NAME(restrict)(int nu, int nv, REAL *p, REAL u, REAL wu, REAL v, REAL wv) {
-    for (int j = 0; j <= nv; j++)
-        NAME(restrict_line)(p + j, nv + 1, nu, u, u + wu);
-    for (int i = 0; i <= nu; i++)
-        NAME(restrict_line)(p + i * (nv + 1), 1, nv, v, v + wv);
-}
-
-// The depths of all of the cell, so that what lies behind an answer need not be decided.
+// With the depths of all of the cell, so that what lies behind an answer need not be decided.
 static void NAME(leave_open)(Task *task, const NAME(Cell) * c) {
     const REAL half = (REAL)0.5;
-    REAL z[POINTS], w[POINTS], low = 0, high = 0;
-    int nu = task->nu, nv = task->nv, count = (nu + 1) * (nv + 1);
-    memcpy(z, NAME(work).z, sizeof z[0] * (size_t)count);
-    memcpy(w, NAME(work).w, sizeof w[0] * (size_t)count);
-    NAME(restrict)(nu, nv, z, c->u, c->wu, c->v, c->wv);
-    if (task->def->weights)
-        NAME(restrict)(nu, nv, w, c->u, c->wu, c->v, c->wv);
+    const Place *at = &task->place;
+    REAL low = 0, high = 0, least = 1;
+    int count = (task->nu + 1) * (task->nv + 1);
     for (int k = 0; k < count; k++) {
-        REAL t = task->def->weights ? z[k] / w[k] : z[k];
-        low = k == 0 || t < low ? t : low;
-        high = k == 0 || t > high ? t : high;
+        REAL w = task->def->weights ? c->p[3][k] : 1, z = c->p[2][k] / w;
+        low = k == 0 || z < low ? z : low;
+        high = k == 0 || z > high ? z : high;
+        least = NAME(min)(w, least);
     }
     note_cell(task, (double)c->u, (double)c->v, (double)c->wu, (double)c->wv);
-    add_item(task, (double)(half * (low + high)), (double)(half * (high - low) + NAME(work).ez),
-             (double)(c->u + half * c->wu), (double)(c->v + half * c->wv), (double)c->wu,
-             (double)c->wv, ROOT_OPEN);
+    if (task->last)
+        NAME(add)
+    (task, at->u + at->wu * (WIDE)(c->u + half * c->wu),
+     at->v + at->wv * (WIDE)(c->v + half * c->wv), at->wu * (WIDE)c->wu, at->wv * (WIDE)c->wv,
+     half * (low + high), half * (high - low) + c->ez / least, ROOT_OPEN);
+}
+
+// ---- The search
+
+// A root within r of (p,q) in the cell.
+static void NAME(settled)(Task *task, const NAME(Cell) * c, REAL p, REAL q, REAL r) {
+    const Place *at = &task->place;
+    WIDE u = at->u + at->wu * (WIDE)(c->u + p * c->wu),
+         v = at->v + at->wv * (WIDE)(c->v + q * c->wv);
+    // Each is rounded once or twice.
+    WIDE ru =
+        at->wu * (WIDE)(r * c->wu + 4 * UNIT * (c->u + c->wu)) + 4 * WIDE_UNIT * (at->u + at->wu);
+    WIDE rv =
+        at->wv * (WIDE)(r * c->wv + 4 * UNIT * (c->v + c->wv)) + 4 * WIDE_UNIT * (at->v + at->wv);
+    if (u + ru < 0 || u - ru > 1 || v + rv < 0 || v - rv > 1)
+        return; // proved to lie outside
+    REAL ez, z = NAME(depth)(task, c, p, q, r, r, &ez);
+    if (at->bounded && (z - ez > at->z_high || z + ez < at->z_low))
+        return;
+    bool inside = u - ru >= 0 && u + ru <= 1 && v - rv >= 0 && v + rv <= 1;
+    if (!inside)
+        note_cell(task, (double)c->u, (double)c->v, (double)c->wu, (double)c->wv);
+    if (inside || task->last)
+        NAME(add)(task, u, v, ru, rv, z, ez, inside ? ROOT_CERTAIN : ROOT_BORDER);
 }
 
 // A cell with L small: its root, if it has one, or none. False: not decided.
@@ -270,8 +311,8 @@ static inline bool NAME(settle)(Task *task, int nu, int nv, const NAME(Cell) * c
     if (!(wide < (REAL)0.75))
         return false;
     REAL p = (REAL)0.5, q = (REAL)0.5, xu, xv, yu, yv;
-    REAL x = NAME(surface)(nu, nv, c->x, p, q, &xu, &xv);
-    REAL y = NAME(surface)(nu, nv, c->y, p, q, &yu, &yv);
+    REAL x = NAME(surface)(nu, nv, c->p[0], p, q, &xu, &xv);
+    REAL y = NAME(surface)(nu, nv, c->p[1], p, q, &yu, &yv);
     REAL off =
         NAME(max)(NAME(abs)(map->ax * x + map->ay * y), NAME(abs)(map->bx * x + map->by * y));
     REAL error = (1 + 2 * (nu + nv)) * NAME(max)(map->ea, map->eb);
@@ -292,172 +333,54 @@ static inline bool NAME(settle)(Task *task, int nu, int nv, const NAME(Cell) * c
         q -= (xu * y - yu * x) / det;
         if (!(p > 2 * low && p < 1 - 2 * low && q > 2 * low && q < 1 - 2 * low))
             break;
-        x = NAME(surface)(nu, nv, c->x, p, q, &xu, &xv);
-        y = NAME(surface)(nu, nv, c->y, p, q, &yu, &yv);
+        x = NAME(surface)(nu, nv, c->p[0], p, q, &xu, &xv);
+        y = NAME(surface)(nu, nv, c->p[1], p, q, &yu, &yv);
     }
     REAL r = best / (1 - wide) * (REAL)1.001;
     if (!(bp - r >= low && bp + r <= high && bq - r >= low && bq + r <= high))
         return false;
-    REAL u = c->u + bp * c->wu, v = c->v + bq * c->wv; // rounded once or twice, below 4 UNIT
-    REAL ru = r * c->wu + 4 * UNIT * (NAME(abs)(c->u) + c->wu);
-    REAL rv = r * c->wv + 4 * UNIT * (NAME(abs)(c->v) + c->wv);
-    if (u + ru < 0 || u - ru > 1 || v + rv < 0 || v - rv > 1)
-        return true; // proved to lie outside
-    bool inside = u - ru >= 0 && u + ru <= 1 && v - rv >= 0 && v + rv <= 1;
-    if (!inside)
-        note_cell(task, (double)c->u, (double)c->v, (double)c->wu, (double)c->wv);
-    NAME(add)(task, u, v, ru, rv, inside ? ROOT_CERTAIN : ROOT_BORDER);
+    NAME(settled)(task, c, bp, bq, r);
     return true;
 }
 
 // In which direction is the cell longer, as the ray sees it? So a collapsed edge is not cut into
 // slices that all contain it.
 static inline bool NAME(longer_in_u)(int nu, int nv, const NAME(Cell) * c) {
-    REAL along_u = 0, along_v = 0;
-    const REAL *coordinate[2] = {c->x, c->y};
-    for (int n = 0; n < 2; n++) {
-        const REAL *p = coordinate[n];
-        for (int k = nv + 1; k < (nu + 1) * (nv + 1); k++)
-            along_u = NAME(max)(along_u, NAME(abs)(p[k] - p[k - nv - 1]) * nu);
-        for (int i = 0; i <= nu; i++)
-            for (int k = i * (nv + 1); k < i * (nv + 1) + nv; k++)
-                along_v = NAME(max)(along_v, NAME(abs)(p[k + 1] - p[k]) * nv);
-    }
-    return along_u >= along_v;
+    REAL xu, xv, yu, yv;
+    NAME(steps)(nu, nv, c->p[0], &xu, &xv);
+    NAME(steps)(nu, nv, c->p[1], &yu, &yv);
+    return NAME(max)(xu, yu) * nu >= NAME(max)(xv, yv) * nv;
 }
 
-static inline void NAME(search)(Task *task, int nu, int nv, int budget, int depth_limit) {
-    NAME(Cell) *stack = NAME(work).cells;
+// Of the cell at the bottom of the stack, which has room for depth_limit cells.
+static inline void NAME(search)(Task *task, int nu, int nv, NAME(Cell) * stack, int depth_limit) {
     int top = 1, count = (nu + 1) * (nv + 1);
     while (top > 0) {
         NAME(Cell) *c = &stack[top - 1];
-        if (NAME(one_sign)(c->x, count, c->ex) || NAME(one_sign)(c->y, count, c->ey)) {
-            top--;
-            continue;
-        }
         NAME(Map) map;
-        if (!NAME(reduce)(nu, nv, c, &map) || NAME(settle)(task, nu, nv, c, &map)) {
+        NAME(Span) x = NAME(span_of)(c->p[0], count), y = NAME(span_of)(c->p[1], count);
+        REAL most[3] = {x.most, y.most, 0};
+        if (NAME(one_sign)(&x, c->ex) || NAME(one_sign)(&y, c->ey) ||
+            (task->place.bounded && NAME(elsewhere)(task, count, c)) ||
+            !NAME(reduce)(nu, nv, c, most, &map) || NAME(settle)(task, nu, nv, c, &map)) {
             top--;
             continue;
         }
-        bool least = NAME(most)(c->x, count) <= 4 * c->ex && NAME(most)(c->y, count) <= 4 * c->ey;
-        if (least || top >= depth_limit || --budget < 0) {
+        bool least = (x.most <= 4 * c->ex && y.most <= 4 * c->ey) || (map.hidden && !task->last);
+        if (least || top >= depth_limit || --task->budget < 0) {
             NAME(leave_open)(task, c);
             top--;
             continue;
         }
-        NAME(Cell) from;
-        bool along_u = NAME(longer_in_u)(nu, nv, c);
-        memcpy(from.x, c->x, sizeof c->x[0] * (size_t)count);
-        memcpy(from.y, c->y, sizeof c->y[0] * (size_t)count);
-        from.u = c->u, from.v = c->v, from.wu = c->wu, from.wv = c->wv;
-        from.ex = c->ex, from.ey = c->ey;
-        NAME(halve)(nu, nv, &from, along_u, &stack[top], &stack[top - 1]);
+        most[2] = NAME(span_of)(c->p[2], count).most;
+        NAME(halve)(task, nu, nv, NAME(longer_in_u)(nu, nv, c), most, c, &stack[top]);
         top++;
     }
 }
 
-static inline WIDE NAME(wide_abs)(WIDE a) { return a < 0 ? -a : a; }
-
-// Scales by a power of two to at most 1 in size and rounds. Returns the error of the results;
-// `error` is that of p.
-static REAL NAME(scale)(const WIDE *p, WIDE error, int count, REAL *out) {
-    WIDE most = 0;
-    int exponent;
-    for (int k = 0; k < count; k++)
-        most = NAME(wide_abs)(p[k]) > most ? NAME(wide_abs)(p[k]) : most;
-    if (!(most > 0))
-        most = 1;
-    frexpl((long double)most, &exponent);
-    WIDE scale = ldexpl(1.0L, -exponent);
-    for (int k = 0; k < count; k++)
-        out[k] = (REAL)(p[k] * scale);
-    // Conversion errs by UNIT of values up to 1; 1.001 covers its own rounding.
-    return (REAL)(error * scale) * (REAL)1.001 + UNIT;
-}
-
-static void NAME(project)(const Task *task) {
-    const PatchDef *def = task->def;
-    int count = (task->nu + 1) * (task->nv + 1), k = 0;
-    const Ray *ray = task->ray;
-    for (int axis = 1; axis < 3; axis++)
-        if (fabs(vec_get(ray->dir, axis)) > fabs(vec_get(ray->dir, k)))
-            k = axis;
-    int a = (k + 1) % 3, b = (k + 2) % 3;
-    WIDE da = vec_get(ray->dir, a), db = vec_get(ray->dir, b), dk = vec_get(ray->dir, k);
-    WIDE x[POINTS], y[POINTS], ex = 0, ey = 0, far = 0, most = 0, least = INFINITY;
-    for (int n = 0; n < count; n++) {
-        Vec3 p = def->points[n];
-        WIDE qa = (WIDE)vec_get(p, a) - vec_get(ray->org, a);
-        WIDE qb = (WIDE)vec_get(p, b) - vec_get(ray->org, b);
-        WIDE qk = (WIDE)vec_get(p, k) - vec_get(ray->org, k);
-        WIDE px = qa * dk, py = qb * dk, sx = qk * da, sy = qk * db;
-        x[n] = px - sx;
-        y[n] = py - sy;
-        // Each term errs by 2 units (difference, product), their difference by 1 more, and one more
-        // is the weight's.
-        WIDE w = def->weights ? def->weights[n] : 1.0;
-        WIDE tx = 4 * WIDE_UNIT * w * (NAME(wide_abs)(px) + NAME(wide_abs)(sx));
-        WIDE ty = 4 * WIDE_UNIT * w * (NAME(wide_abs)(py) + NAME(wide_abs)(sy));
-        x[n] *= w;
-        y[n] *= w;
-        ex = tx > ex ? tx : ex;
-        ey = ty > ey ? ty : ey;
-        NAME(work).z[n] = (REAL)(w * qk / dk);
-        NAME(work).w[n] = (REAL)w;
-        far = NAME(wide_abs)(qk / dk) > far ? NAME(wide_abs)(qk / dk) : far;
-        most = w > most ? w : most;
-        least = w < least ? w : least;
-    }
-    NAME(Cell) *whole = &NAME(work).cells[0];
-    whole->ex = NAME(scale)(x, ex, count, whole->x);
-    whole->ey = NAME(scale)(y, ey, count, whole->y);
-    whole->u = whole->v = 0;
-    whole->wu = whole->wv = 1;
-    // t = N / W, N = sum w t B: |N'| and |W'| come from differences, |t| <= far.
-    const REAL *z = NAME(work).z, *w = NAME(work).w;
-    REAL ratio = (REAL)(most / least), su = 0, sv = 0, wu = 0, wv = 0;
-    NAME(work).ez = 16 * (task->nu + task->nv) * UNIT * (REAL)far * ratio;
-    for (int n = task->nv + 1; n < count; n++) {
-        su = NAME(max)(su, NAME(abs)(z[n] - z[n - task->nv - 1]));
-        wu = NAME(max)(wu, NAME(abs)(w[n] - w[n - task->nv - 1]));
-    }
-    for (int n = 1; n < count; n++) {
-        if (n % (task->nv + 1) == 0)
-            continue;
-        sv = NAME(max)(sv, NAME(abs)(z[n] - z[n - 1]));
-        wv = NAME(max)(wv, NAME(abs)(w[n] - w[n - 1]));
-    }
-    NAME(work).slope_u = task->nu * (su + (REAL)far * wu) / (REAL)least;
-    NAME(work).slope_v = task->nv * (sv + (REAL)far * wv) / (REAL)least;
-}
-
-static void NAME(search_first)(Task *task, int budget, int depth_limit) {
+static void NAME(search_first)(Task *task, NAME(Cell) * stack, int depth_limit) {
     if (task->nu == 3 && task->nv == 3)
-        NAME(search)(task, 3, 3, budget, depth_limit);
+        NAME(search)(task, 3, 3, stack, depth_limit);
     else
-        NAME(search)(task, task->nu, task->nv, budget, depth_limit);
-}
-
-static void NAME(find)(Task *task, int budget, int depth_limit) {
-    NAME(project)(task);
-    NAME(search_first)(task, budget, depth_limit);
-}
-
-// Only in some cells, that another search left open.
-static inline void NAME(find_in)(Task *task, const OpenCell *cells, int count, int budget,
-                                 int depth_limit) {
-    int nu = task->nu, nv = task->nv, points = (nu + 1) * (nv + 1);
-    NAME(project)(task);
-    NAME(Cell) *c = &NAME(work).cells[0], *whole = &NAME(work).whole;
-    *whole = *c;
-    for (int n = 0; n < count; n++) {
-        *c = *whole;
-        c->u = cells[n].u, c->v = cells[n].v, c->wu = cells[n].wu, c->wv = cells[n].wv;
-        NAME(restrict)(nu, nv, c->x, c->u, c->wu, c->v, c->wv);
-        NAME(restrict)(nu, nv, c->y, c->u, c->wu, c->v, c->wv);
-        c->ex += 4 * (nu + nv) * UNIT * NAME(most)(whole->x, points);
-        c->ey += 4 * (nu + nv) * UNIT * NAME(most)(whole->y, points);
-        NAME(search_first)(task, budget, depth_limit);
-    }
+        NAME(search)(task, task->nu, task->nv, stack, depth_limit);
 }

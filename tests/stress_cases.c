@@ -425,9 +425,18 @@ void stress_scene_make(const StressCase *which, uint64_t seed, uint64_t number,
     *scene = (StressScene){.arena = arena_create(), .box = box_empty()};
     Rng rng = {mixed(case_seed(which, seed), number)};
     which->make(scene, &rng, which->parameter);
-    for (int n = 0; n < scene->count; n++)
+    scene->least_diameter = INFINITY;
+    scene->diameter = ARENA_ARRAY(scene->arena, double, (size_t)scene->count);
+    for (int n = 0; n < scene->count; n++) {
+        Box box = box_empty();
         for (uint32_t k = 0; k < (scene->defs[n].degree_u + 1) * (scene->defs[n].degree_v + 1); k++)
-            scene->box = box_extend(scene->box, scene->defs[n].points[k]);
+            box = box_extend(box, scene->defs[n].points[k]);
+        Vec3 d = vec_sub(box.high, box.low);
+        scene->diameter[n] = hypot(d.x, hypot(d.y, d.z));
+        scene->least_diameter = fmin(scene->least_diameter, scene->diameter[n]);
+        scene->box = box_union(scene->box, box);
+    }
+    scene->oracle = ray_oracle_prepare(scene->arena, scene->defs, scene->count);
     scene->middle = vec_add(vec_scale(scene->box.low, 0.5), vec_scale(scene->box.high, 0.5));
     // Without squares: they would leave the range of numbers.
     Vec3 d = vec_sub(scene->box.high, scene->box.low);

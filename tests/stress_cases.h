@@ -4,6 +4,8 @@
 #ifndef TESTS_STRESS_CASES_H
 #define TESTS_STRESS_CASES_H
 
+#include "ray_oracle.h"
+
 #include "base/arena.h"
 #include "base/rng.h"
 #include "patch/patch.h"
@@ -16,7 +18,9 @@ typedef struct {
 typedef struct {
     Arena *arena;
     int count, capacity;
-    PatchDef *defs; // ids count from 0
+    PatchDef *defs;                   // ids count from 0
+    double *diameter, least_diameter; // of each patch's box
+    RayOracleSet *oracle;
     Box box;
     Vec3 middle;
     double size;   // diagonal of box

@@ -24,83 +24,54 @@ void stress_truth_init(StressTruth *truth, const StressScene *scene, const Stres
 
 static double length_of(Vec3 a) { return hypot(a.x, hypot(a.y, a.z)); }
 
-// In long double, which has the range for all scales, and with room for its rounding.
-static bool meets_hull(const PatchDef *def, const Ray *ray) {
-    long double near = -INFINITY, far = INFINITY;
-    for (int axis = 0; axis < 3; axis++) {
-        long double o = vec_get(ray->org, axis), d = vec_get(ray->dir, axis);
-        long double low = vec_get(def->points[0], axis), high = low;
-        for (uint32_t k = 1; k < (def->degree_u + 1) * (def->degree_v + 1); k++) {
-            long double x = vec_get(def->points[k], axis);
-            low = x < low ? x : low;
-            high = x > high ? x : high;
-        }
-        if (d == 0) {
-            if (o < low || o > high)
-                return false;
-            continue;
-        }
-        long double a = (low - o) / d, b = (high - o) / d;
-        long double first = a < b ? a : b, last = a < b ? b : a;
-        first -= 0x1p-60L * fabsl(first), last += 0x1p-60L * fabsl(last);
-        near = first > near ? first : near;
-        far = last < far ? last : far;
-    }
-    return near <= far;
-}
-
-static void find(StressTruth *truth, RayOraclePrecision precision) {
+static void find(StressTruth *truth, RayOraclePrecision precision, RayOracleRange range) {
     int level = precision == ORACLE_QUICK ? 1 : 2;
-    if (truth->made >= level)
+    if (truth->made >= level && truth->range.t0 <= range.t0 && truth->range.t1 >= range.t1)
         return;
     truth->made = level;
+    truth->range = range;
     truth->oracle.count = truth->oracle.open = 0;
-    for (int n = 0; n < truth->scene->count; n++) {
-        const PatchDef *def = &truth->scene->defs[n];
-        if (!meets_hull(def, &truth->ray->ray))
-            continue;
-        int first = truth->oracle.count;
-        ray_oracle_find(&truth->oracle, def, &truth->ray->ray, precision);
-        for (int k = first; k < truth->oracle.count; k++)
-            truth->patch[k] = n;
-    }
+    ray_oracle_search(&truth->oracle, truth->scene->oracle, &truth->ray->ray, range, precision);
+}
+
+static const RayOracleRange everywhere = {-INFINITY, INFINITY};
+
+static double sine_of(StressTruth *truth, int k) {
+    RayOracleRoot *root = &truth->oracle.root[k];
+    return ray_oracle_sine(root, &truth->scene->defs[root->patch], &truth->ray->ray);
 }
 
 void stress_truth_print(StressTruth *truth) {
     static const char *const kinds[] = {"certain", "border", "open"};
-    find(truth, ORACLE_EXACT);
+    find(truth, ORACLE_EXACT, everywhere);
     for (int k = 0; k < truth->oracle.count; k++) {
         const RayOracleRoot *c = &truth->oracle.root[k];
-        printf("  truth: patch %d t %.17g +- %.2g u %.17g v %.17g sine %.3g %s\n", truth->patch[k],
-               c->t, c->dt, c->u, c->v, c->sine, kinds[c->kind]);
+        printf("  truth: patch %d t %.17g +- %.2g u %.17g v %.17g sine %.3g %s\n",
+               truth->oracle.root[k].patch, c->t, c->dt, c->u, c->v, sine_of(truth, k),
+               kinds[c->kind]);
     }
 }
 
 // ---- Hits
 
-static double diameter_of(const PatchDef *def) {
-    Box box = box_empty();
-    for (uint32_t k = 0; k < (def->degree_u + 1) * (def->degree_v + 1); k++)
-        box = box_extend(box, def->points[k]);
-    return length_of(vec_sub(box.high, box.low));
-}
-
 // What rounding may cost, in scene units: 128 units of the last place a degree, at the farthest
 // point that ray and patch involve.
-static double rounding_of(const PatchDef *def, const Ray *ray) {
-    double reach = 0.0;
-    for (uint32_t k = 0; k < (def->degree_u + 1) * (def->degree_v + 1); k++)
-        reach = fmax(reach, length_of(vec_sub(def->points[k], ray->org)));
+static double rounding_for(const PatchDef *def, double reach) {
     return 128.0 * (def->degree_u + def->degree_v) * 0x1p-53 * reach + 64.0 * 0x1p-1074;
+}
+
+static double rounding_of(const PatchDef *def, const Ray *ray) {
+    long double most = 0; // of the squares, which double has no room for
+    for (uint32_t k = 0; k < (def->degree_u + 1) * (def->degree_v + 1); k++) {
+        Vec3 d = vec_sub(def->points[k], ray->org);
+        long double x = d.x, y = d.y, z = d.z, square = x * x + y * y + z * z;
+        most = square > most ? square : most;
+    }
+    return rounding_for(def, (double)sqrtl(most));
 }
 
 static double tolerance_of(const StressCase *which, PatchMethod method) {
     return stress_is_triangles(method) ? 1e-2 : which->tolerance;
-}
-
-static double allowed_of(const StressCase *which, PatchMethod method, const PatchDef *def,
-                         const Ray *ray) {
-    return tolerance_of(which, method) * diameter_of(def) + rounding_of(def, ray);
 }
 
 static StressVerdict judge_hit(const StressCase *which, PatchMethod method,
@@ -113,12 +84,12 @@ static StressVerdict judge_hit(const StressCase *which, PatchMethod method,
         !(hit->u >= 0.0 && hit->u <= 1.0 && hit->v >= 0.0 && hit->v <= 1.0))
         return STRESS_FALSE;
     const PatchDef *def = &truth->scene->defs[hit->id];
+    double share = tolerance_of(which, method) * truth->scene->diameter[hit->id];
     double off = ray_oracle_residual(def, &r->ray, hit->t, hit->u, hit->v);
     // Mostly it is well within the tolerance, and what rounding allows does not matter.
-    if (!stress_is_triangles(method) && off <= hit->bound &&
-        hit->bound <= tolerance_of(which, method) * diameter_of(def))
+    if (!stress_is_triangles(method) && off <= hit->bound && hit->bound <= share)
         return STRESS_FINE;
-    double allowed = allowed_of(which, method, def, &r->ray);
+    double allowed = share + rounding_of(def, &r->ray);
     if (def->weights) { // which may stretch the last bit of a parameter to any length
         Vec3 jet[3];
         ray_oracle_jet(def, hit->u, hit->v, jet);
@@ -131,27 +102,26 @@ static StressVerdict judge_hit(const StressCase *which, PatchMethod method,
     return STRESS_FINE;
 }
 
-// How far a hit with that bound may lie from the crossing, in t.
-static double slack_of(const RayOracleRoot *c, double bound, const Ray *ray) {
-    return c->dt + 4.0 * bound / (fmax(c->sine, 1e-3) * length_of(ray->dir)) +
+// How far a hit with that bound may lie from a crossing, in t, when the angle between ray and
+// surface has that sine: at least, and at most, for 1 and 0.
+static double slack_for(const RayOracleRoot *c, double bound, const Ray *ray, double sine) {
+    return c->dt + 4.0 * bound / (fmax(sine, 1e-3) * length_of(ray->dir)) +
            8.0 * DBL_EPSILON * fabs(c->t) + 4.0 * 0x1p-1074;
+}
+
+static double slack_of(StressTruth *truth, int k, double bound) {
+    return slack_for(&truth->oracle.root[k], bound, &truth->ray->ray, sine_of(truth, k));
 }
 
 // Between the hit and the crossing k.
 static bool near_between(const StressTruth *truth, const PatchHit *hit, int k, double bound) {
     const RayOracleRoot *c = &truth->oracle.root[k];
     const double from[2] = {hit->u, hit->v}, to[2] = {c->u, c->v};
-    if ((int)hit->id == truth->patch[k] &&
+    if ((int)hit->id == truth->oracle.root[k].patch &&
         ray_oracle_way(&truth->scene->defs[hit->id], &truth->ray->ray, from, to, 4.0 * bound))
         return true;
     return ray_oracle_near(truth->scene->defs, truth->scene->count, &truth->ray->ray,
                            fmin(c->t, hit->t), fmax(c->t, hit->t), 4.0 * bound);
-}
-
-// Does the range surely hold it?
-static bool surely_in_range(const StressTruth *truth, const RayOracleRoot *c, double bound) {
-    double slack = slack_of(c, bound, &truth->ray->ray);
-    return c->t - slack >= truth->ray->t_min && c->t + slack < truth->ray->t_max;
 }
 
 typedef struct {
@@ -161,43 +131,78 @@ typedef struct {
     const StressAnswer *answer;
 } Trial;
 
+static double share_of(const Trial *trial, int patch) {
+    return tolerance_of(trial->which, trial->method) * trial->truth->scene->diameter[patch];
+}
+
 static double bound_at(const Trial *trial, const PatchHit *hit, int patch) {
+    if (hit && !stress_is_triangles(trial->method))
+        return hit->bound;
     const PatchDef *def = &trial->truth->scene->defs[patch];
-    double allowed = allowed_of(trial->which, trial->method, def, &trial->truth->ray->ray);
-    return hit && !stress_is_triangles(trial->method) ? hit->bound : allowed;
+    return share_of(trial, patch) + rounding_of(def, &trial->truth->ray->ray);
+}
+
+static bool within(const StressRay *r, double t, double slack) {
+    return t - slack >= r->t_min && t + slack < r->t_max;
+}
+
+// Does the range surely hold the crossing k? Asked first with more slack than there can be.
+static bool surely_in_range(const Trial *trial, int k) {
+    StressTruth *truth = trial->truth;
+    const RayOracleRoot *c = &truth->oracle.root[k];
+    const StressRay *r = truth->ray;
+    const PatchDef *def = &truth->scene->defs[c->patch];
+    double reach =
+        length_of(vec_sub(def->points[0], r->ray.org)) + truth->scene->diameter[c->patch];
+    double most = share_of(trial, c->patch) + 1.001 * rounding_for(def, reach);
+    return within(r, c->t, slack_for(c, most, &r->ray, 0.0)) ||
+           within(r, c->t, slack_of(truth, k, bound_at(trial, NULL, c->patch)));
 }
 
 // Is a hit too far behind the crossing to be it?
 static bool behind(const Trial *trial, const PatchHit *hit, int k) {
-    const RayOracleRoot *c = &trial->truth->oracle.root[k];
-    double bound =
-        fmax(bound_at(trial, hit, (int)hit->id), bound_at(trial, hit, trial->truth->patch[k]));
-    return hit->t > c->t + slack_of(c, bound, &trial->truth->ray->ray) &&
-           !near_between(trial->truth, hit, k, bound);
+    StressTruth *truth = trial->truth;
+    const RayOracleRoot *c = &truth->oracle.root[k];
+    double bound = fmax(bound_at(trial, hit, (int)hit->id), bound_at(trial, hit, c->patch));
+    return hit->t > c->t + slack_for(c, bound, &truth->ray->ray, 1.0) &&
+           hit->t > c->t + slack_of(truth, k, bound) && !near_between(truth, hit, k, bound);
 }
 
-static StressVerdict judge_nearest(const Trial *trial) {
+// Where a crossing matters: the range, less what is too near to its ends or to the answer to be
+// held against it whatever the angle.
+static RayOracleRange range_that_matters(const Trial *trial) {
+    const StressRay *r = trial->truth->ray;
+    const StressAnswer *a = trial->answer;
+    double four = (1.0 - 0x1p-40) * 4.0, length = length_of(r->ray.dir); // may be denormal
+    double least = tolerance_of(trial->which, trial->method) * trial->truth->scene->least_diameter;
+    RayOracleRange range = {r->t_min + four * least / length, r->t_max - four * least / length};
+    if (a->found && a->any && !stress_is_triangles(trial->method))
+        range.t1 = fmin(range.t1, a->hit.t - four * a->hit.bound / length);
+    return range;
+}
+
+// By the crossings in that range, more and more exactly as far as it matters.
+static StressVerdict judge_nearest(const Trial *trial, RayOracleRange range) {
     const StressAnswer *a = trial->answer;
     StressTruth *truth = trial->truth;
+    const StressRay *r = truth->ray;
     const RayOracle *o = &truth->oracle;
     for (RayOraclePrecision level = ORACLE_QUICK; level <= ORACLE_EXACT; level++) {
-        find(truth, level);
+        find(truth, level, range);
         bool open = false;
         for (int k = 0; k < o->count; k++) {
             const RayOracleRoot *c = &o->root[k];
-            double most = bound_at(trial, NULL, truth->patch[k]);
             if (c->kind == ROOT_CERTAIN) {
-                if (!surely_in_range(truth, c, most))
+                if (!surely_in_range(trial, k))
                     continue;
                 if (!a->found || !a->any)
                     return a->found ? STRESS_DIFFER : STRESS_MISSED;
                 if (behind(trial, &a->hit, k))
                     return STRESS_ORDER;
-            } else {
+            } else if (c->t + c->dt >= r->t_min && c->t - c->dt < r->t_max) {
                 // Only matters when it may lie before the answer.
-                open |=
-                    c->t + c->dt >= truth->ray->t_min && c->t - c->dt < truth->ray->t_max &&
-                    (!a->found || c->t - c->dt < a->hit.t - slack_of(c, most, &truth->ray->ray));
+                double most = bound_at(trial, NULL, c->patch);
+                open |= !a->found || c->t - c->dt < a->hit.t - slack_of(truth, k, most);
             }
         }
         if (!open)
@@ -210,23 +215,26 @@ static StressVerdict judge_nearest(const Trial *trial) {
 static bool accounts(const Trial *trial, const PatchHit *hit, int k, bool far) {
     StressTruth *truth = trial->truth;
     const RayOracleRoot *c = &truth->oracle.root[k];
-    if ((int)hit->id != truth->patch[k] && !stress_is_triangles(trial->method))
+    if ((int)hit->id != c->patch && !stress_is_triangles(trial->method))
         return false;
-    double bound = bound_at(trial, hit, truth->patch[k]);
+    double bound = bound_at(trial, hit, c->patch), off = fabs(hit->t - c->t);
     if (!far)
-        return fabs(hit->t - c->t) <= slack_of(c, bound, &truth->ray->ray);
+        return off <= slack_for(c, bound, &truth->ray->ray, 1.0) ||
+               off <= slack_of(truth, k, bound);
     // Crossings that the tolerance can't tell apart may be one.
-    return near_between(truth, hit, k, bound_at(trial, NULL, truth->patch[k]));
+    return near_between(truth, hit, k, bound_at(trial, NULL, c->patch));
 }
 
 static StressVerdict judge_all(const Trial *trial) {
     const StressAnswer *a = trial->answer;
     StressTruth *truth = trial->truth;
     const RayOracle *o = &truth->oracle;
+    find(truth, ORACLE_QUICK, everywhere);
+    if (o->open)
+        find(truth, ORACLE_EXACT, everywhere);
     for (int k = 0; k < o->count; k++) {
         const RayOracleRoot *c = &o->root[k];
-        bool found = c->kind != ROOT_CERTAIN ||
-                     !surely_in_range(truth, c, bound_at(trial, NULL, truth->patch[k]));
+        bool found = c->kind != ROOT_CERTAIN || !surely_in_range(trial, k);
         for (int far = 0; far < 2; far++)
             for (int i = 0; !found && i < a->count; i++)
                 found = accounts(trial, &a->all[i], k, far);
@@ -243,11 +251,11 @@ static StressVerdict judge_all(const Trial *trial) {
             int certain = 0, other = 0;
             for (int k = 0; k < o->count; k++) {
                 const RayOracleRoot *c = &o->root[k];
-                if (truth->patch[k] != (int)p->id)
+                if (c->patch != (int)p->id)
                     continue;
                 bool here = fabs(c->u - p->u) < 1e-5 && fabs(c->v - p->v) < 1e-5;
-                certain += here && c->kind == ROOT_CERTAIN && c->sine > 1e-3;
-                other += c->kind != ROOT_CERTAIN || (here && c->sine <= 1e-3);
+                certain += here && c->kind == ROOT_CERTAIN && sine_of(truth, k) > 1e-3;
+                other += c->kind != ROOT_CERTAIN || (here && sine_of(truth, k) <= 1e-3);
             }
             if (certain == 1 && other == 0)
                 return STRESS_TWICE;
@@ -269,7 +277,7 @@ static StressVerdict judge_known(const Trial *trial) {
     if (!edges)
         return a->found ? (a->any ? STRESS_ORDER : STRESS_DIFFER) : STRESS_MISSED;
     // The target was rounded: at an outline the ray may truly pass beside it.
-    find(truth, ORACLE_EXACT);
+    find(truth, ORACLE_EXACT, everywhere);
     for (int k = 0; k < truth->oracle.count; k++) {
         const RayOracleRoot *c = &truth->oracle.root[k];
         if (c->kind == ROOT_OPEN || c->t < r->t_min)
@@ -299,7 +307,11 @@ StressVerdict stress_judge(const StressCase *which, PatchMethod method, StressTr
         if (verdict != STRESS_FINE)
             return verdict;
     }
-    StressVerdict verdict = expect == EXPECT_HIT ? judge_known(&trial) : judge_nearest(&trial);
+    StressVerdict verdict = expect == EXPECT_HIT
+                                ? judge_known(&trial)
+                                : judge_nearest(&trial, range_that_matters(&trial));
+    if (verdict == STRESS_FINE && answer->found != answer->any && expect == EXPECT_TRUTH)
+        verdict = judge_nearest(&trial, everywhere); // is there anything to differ about?
     if (verdict != STRESS_FINE)
         return verdict;
     if (answer->found != answer->any && !truth->open)
@@ -317,7 +329,10 @@ StressVerdict stress_judge_left(const StressAnswer *answer, StressTruth *truth, 
         ray_oracle_near(s->defs, s->count, &r->ray, 0.0, answer->hit.t, 0.5 * reach))
         return STRESS_FALSE;
     // What was left out before t_min must have been that surface.
-    find(truth, ORACLE_QUICK);
+    RayOracleRange range = {16.0 * reach / length_of(r->ray.dir), r->t_min};
+    if (range.t0 >= range.t1)
+        return STRESS_FINE;
+    find(truth, ORACLE_QUICK, range);
     for (int k = 0; k < truth->oracle.count; k++) {
         const RayOracleRoot *c = &truth->oracle.root[k];
         if (c->kind == ROOT_CERTAIN && c->t < r->t_min &&

@@ -60,9 +60,9 @@ typedef struct {
 typedef struct {
     const StressScene *scene;
     const StressRay *ray;
-    int made; // 0: not yet, 1: quickly, 2: exactly
+    int made;             // 0: not yet, 1: quickly, 2: exactly
+    RayOracleRange range; // of the depths at which they are known
     RayOracle oracle;
-    int patch[RAY_ORACLE_ROOTS];
     bool open; // a decision was left open
 } StressTruth;
 

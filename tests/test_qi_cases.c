@@ -286,7 +286,7 @@ static void tangent_rays(void **state) {
         QiHit hit;
         QiStats stats = {0, 0, 0, 0};
         qi_reduce_nearest(&s, &q, &stats, &hit);
-        if (stats.steps > 100)
+        if (stats.steps > 80)
             fail_msg("ray %d: %d steps", k, (int)stats.steps);
     }
 }

@@ -15,7 +15,8 @@
 // the error by 2 L / (1 - L) = 2/3 or less, and quadratically less as it goes on. It ends on the
 // root, or, when the piece has none, on a residual that rounding does not explain: a proved miss.
 // Between 1/4 and 1 Newton is tried as well: what it finds is the only root, if it fails nothing
-// is proved and the reduction goes on.
+// is proved and the reduction goes on. All of that holds for the forms below as well, since it is
+// asked of A (x, y), which is made from them: a root at a small angle is as single as any.
 //
 // Where J is singular (collapsed edges, silhouettes, rays in the surface) the map is a rotation to
 // the direction of the larger tangent and the one across, after x and y were measured in units of
@@ -227,15 +228,41 @@ static inline bool reduce_piece(Search *q, int du, int dv, Piece *p) {
     return true;
 }
 
+// L, and the rounding of the parameters of a root in a piece's own units. A rotation's forms
+//     a s + b w + f,  c w + h    (s: the parameter of the larger tangent)
+// are divided by their matrix, whatever the angle between the tangents: s + (f - b/c h)/a, w + h/c.
+static inline void contraction(const Piece *p, const QiFrame *frame, double *slope, double *slack_u,
+                               double *slack_v) {
+    const QiForm *f = p->forms;
+    double slope_0 = p->bounds[0].slope, slope_1 = p->bounds[1].slope;
+    double slack_0 = form_slack(f[0], frame), slack_1 = form_slack(f[1], frame);
+    if (p->regular) {
+        *slope = larger(slope_0, slope_1);
+        *slack_u = slack_0;
+        *slack_v = slack_1;
+        return;
+    }
+    bool along_u = fabs(f[0].au) >= fabs(f[0].av);
+    double a = fabs(along_u ? f[0].au : f[0].av), b = fabs(along_u ? f[0].av : f[0].au);
+    double c = fabs(along_u ? f[1].av : f[1].au), zero = fabs(along_u ? f[1].au : f[1].av);
+    slope_1 = (slope_1 + zero) / c;
+    slack_1 /= c;
+    *slope = larger((slope_0 + b * slope_1) / a, slope_1);
+    slack_0 = (slack_0 + b * slack_1) / a;
+    *slack_u = along_u ? slack_0 : slack_1;
+    *slack_v = along_u ? slack_1 : slack_0;
+}
+
 // Is there one root at most, and was it found or proved absent?
 static bool finish_single(Search *q, const Piece *p) {
-    double slope = larger(p->bounds[0].slope, p->bounds[1].slope);
-    if (!p->regular || slope > LIKELY_SLOPE)
+    double slope, slack_u, slack_v;
+    contraction(p, &q->target.frame, &slope, &slack_u, &slack_v);
+    if (!(slope <= LIKELY_SLOPE && slack_u <= 0.5 && slack_v <= 0.5))
         return false;
     // Twice the rounding that Newton may leave, times 1 / (1 - L).
     double times = 2.0 * QI_ROOT_SLACKS / (1.0 - slope);
-    double error_u = times * form_slack(p->forms[0], &q->target.frame) * (p->rect.u1 - p->rect.u0);
-    double error_v = times * form_slack(p->forms[1], &q->target.frame) * (p->rect.v1 - p->rect.v0);
+    double error_u = times * slack_u * (p->rect.u1 - p->rect.u0);
+    double error_v = times * slack_v * (p->rect.v1 - p->rect.v0);
     return qi_root_sharpen(&q->target, p->left, error_u, error_v) || slope <= CERTAIN_SLOPE;
 }
 

@@ -50,17 +50,17 @@ static inline void eval_cubic(const double *p, double u, double v, Vec3 out[3]) 
 
 static inline void eval_patch(const AccelPatch *patch, double u, double v, Vec3 out[3]) {
     if (patch->cubic)
-        eval_cubic(patch->local, u, v, out);
+        eval_cubic(patch->own, u, v, out);
     else
         piece_eval(patch, u, v, out);
 }
 
-// walk->ray and walk->piece are set; (u,v) lies in the piece.
-static inline Newton newton_sharpen(Walk *walk, const Piece *piece, double u, double v) {
+// walk->ray and walk->piece are set; (u,v) lies in rect, which is the piece's or a part of it.
+static inline Newton newton_sharpen(Walk *walk, const Piece *piece, BezierRect rect, double u,
+                                    double v) {
     const PatchRay *ray = &walk->ray;
     Query *query = walk->query;
-    // Up to a hair outside of the piece, where its bounds still hold: then neighbours agree.
-    const BezierRect rect = piece_rect(piece);
+    // Up to a hair outside of it, where the piece's bounds still hold: then neighbours agree.
     double hair_u = PIECE_MARGIN * (rect.u1 - rect.u0), hair_v = PIECE_MARGIN * (rect.v1 - rect.v0);
     const double u0 = larger(rect.u0 - hair_u, 0.0), u1 = smaller(rect.u1 + hair_u, 1.0);
     const double v0 = larger(rect.v0 - hair_v, 0.0), v1 = smaller(rect.v1 + hair_v, 1.0);
@@ -114,7 +114,7 @@ static inline Newton newton_sharpen(Walk *walk, const Piece *piece, double u, do
                              .v = v,
                              .normal = vec_scale(n, 1.0 / area),
                              .bound = distance,
-                             .id = ray->patch->def->id}};
+                             .id = ray->patch->id}};
         if (!walk_in_range(walk, root.hit.t))
             return NEWTON_TAKEN;
         if (query->kind == QUERY_ALL)

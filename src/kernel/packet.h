@@ -21,7 +21,7 @@ static void write_hit(const RayPacket *p, int i, PatchHit *hit) {
                       .v = p->v[i],
                       .normal = {p->normal[0][i], p->normal[1][i], p->normal[2][i]},
                       .bound = p->bound[i],
-                      .id = p->accel->patches[p->best_patch[i]].def->id};
+                      .id = p->accel->patches[p->best_patch[i]].id};
 }
 
 // Goes on with what the packet knows of the ray.

@@ -187,7 +187,7 @@ static inline unsigned rays_sharpen(RayPacket *p, int i, unsigned bits, uint32_t
     for (int step = 0; step < NEWTON_STEPS && bits; step++) {
         p->stats->newton += (uint64_t)__builtin_popcount(bits);
         Wide3 s[3];
-        rays_eval(patch->local, u, v, s);
+        rays_eval(patch->own, u, v, s);
         Wide3 su = s[1], sv = s[2], r = wide3_sub(rays.org, s[0]);
         Wide3 m1 = wide3_cross(dir, sv), m2 = wide3_cross(su, dir);
         WD det = wide3_dot(su, m1), steep = 1.0 / det;
@@ -219,7 +219,7 @@ static inline unsigned rays_sharpen(RayPacket *p, int i, unsigned bits, uint32_t
         bits &= ~good;
         unsigned turns = p->kind == QUERY_ANY ? 0 : good & wd_lt(NEWTON_NORMAL_TURN * area, turn);
         if (turns) {
-            rays_eval(patch->local, wd_clamp(u, wd_all(0.0), wd_all(1.0)),
+            rays_eval(patch->own, wd_clamp(u, wd_all(0.0), wd_all(1.0)),
                       wd_clamp(v, wd_all(0.0), wd_all(1.0)), s);
             Wide3 there = wide3_cross(s[1], s[2]);
             n = (Wide3){wd_pick(turns, there.x, n.x), wd_pick(turns, there.y, n.y),

@@ -24,7 +24,11 @@
 #include "kernel/newton.h"
 #include "patch/qi.h"
 
-enum { SEARCH_STEPS = 12 }; // of an X that shrinks; a single root takes one or two
+enum {
+    SEARCH_STEPS = 12, // of an X that shrinks; a single root takes one or two
+    SEARCH_CUTS = 24,  // looks where it is cut in half
+    SEARCH_DEPTH = 8,  // cuts, one in the other
+};
 
 // The surface about one point, as the ray sees it.
 typedef struct {
@@ -62,8 +66,9 @@ static inline double det_error(const PatchRay *ray, const Point *p) {
 // Bounds over the whole of X, of half sizes hu, hv.
 typedef struct {
     double det_error;
-    double wu, wv; // uncertainty of nu, nv
-    bool single;   // at most one root in X
+    double wu, wv;     // uncertainty of nu, nv
+    bool single;       // at most one root in X
+    double by_u, by_v; // how much of what stands against that comes from X's size in u, v
 } Bounds;
 
 static inline Bounds bound(const PatchRay *ray, const Piece *piece, const Point *p, double hu,
@@ -76,6 +81,8 @@ static inline Bounds bound(const PatchRay *ray, const Piece *piece, const Point 
     Bounds b = {.det_error = det_error(ray, p),
                 .wu = rest * l1 + U16 * lr * length1(p->sv),
                 .wv = rest * l2 + U16 * lr * length1(p->su)};
+    b.by_u = hu * (muu * l1 + muv * l2);
+    b.by_v = hv * (muv * l1 + mvv * l2);
     b.single = fabs(p->det) - b.det_error > alpha * l1 + beta * l2 + alpha * beta;
     return b;
 }
@@ -110,7 +117,7 @@ static void take_qi(void *context, const QiHit *hit) {
     const PatchRay *ray = &f->walk->ray;
     if (!f->go_on || !walk_in_range(f->walk, hit->t))
         return;
-    Root root = {.hit = {hit->t, hit->u, hit->v, hit->normal, hit->bound, ray->patch->def->id}};
+    Root root = {.hit = {hit->t, hit->u, hit->v, hit->normal, hit->bound, ray->patch->id}};
     Point p;
     look(ray, hit->u, hit->v, &p);
     double lu = vec_length(p.su), lv = vec_length(p.sv);
@@ -142,40 +149,87 @@ static bool search_qi(Walk *walk, BezierRect rect) {
     return f.go_on;
 }
 
+// What to do with a rectangle that has been looked at.
+typedef enum { PART_DONE, PART_SHRUNK, PART_STUCK, PART_STOP } Part;
+
+// A look at *rect: it shrinks to where roots may be, and the only root is taken. home: the part of
+// the piece that *rect shrank from, which Newton does not leave. *across_u: were it to be cut, so.
+static inline Part look_at(Walk *walk, const Piece *piece, BezierRect home, BezierRect *rect,
+                           bool *across_u) {
+    const PatchRay *ray = &walk->ray;
+    // The rectangle's corners and its middle are rounded: half sizes that surely hold it.
+    double hu = 0.5 * (rect->u1 - rect->u0) * (1.0 + 0x1p-50) + 0x1p-53;
+    double hv = 0.5 * (rect->v1 - rect->v0) * (1.0 + 0x1p-50) + 0x1p-53;
+    Point p;
+    walk->query->stats.newton++;
+    look(ray, 0.5 * (rect->u0 + rect->u1), 0.5 * (rect->v0 + rect->v1), &p);
+    Bounds of = bound(ray, piece, &p, hu, hv);
+    Span a = solve(p.nu, of.wu, p.det, of.det_error, hu);
+    Span b = solve(p.nv, of.wv, p.det, of.det_error, hv);
+    if (a.low > a.high || b.low > b.high)
+        return PART_DONE;
+    if (of.single) {
+        double u = clamp(p.u + clamp(p.nu / p.det, a.low, a.high), home.u0, home.u1);
+        double v = clamp(p.v + clamp(p.nv / p.det, b.low, b.high), home.v0, home.v1);
+        Newton done = newton_sharpen(walk, piece, home, u, v);
+        if (done != NEWTON_LOST)
+            return done == NEWTON_TAKEN ? PART_DONE : PART_STOP;
+    }
+    *across_u = of.by_u > of.by_v;
+    double kept = (a.high - a.low) * (b.high - b.low) / (4.0 * hu * hv);
+    *rect = (BezierRect){clamp(p.u + a.low - 0x1p-53, rect->u0, rect->u1),
+                         clamp(p.u + a.high + 0x1p-53, rect->u0, rect->u1),
+                         clamp(p.v + b.low - 0x1p-53, rect->v0, rect->v1),
+                         clamp(p.v + b.high + 0x1p-53, rect->v0, rect->v1)};
+    return kept < 0.5 ? PART_SHRUNK : PART_STUCK;
+}
+
+static inline BezierRect rect_union(BezierRect a, BezierRect b) {
+    return (BezierRect){smaller(a.u0, b.u0), larger(a.u1, b.u1), smaller(a.v0, b.v0),
+                        larger(a.v1, b.v1)};
+}
+
 // Finds every crossing in rect, a part of the piece's rectangle, and gives it to walk_take; false
 // to end the walk. Crossings outside the patch by what rounding can do are taken too, with (u,v) on
-// the patch's edge; crossings on the edge of rect may be found by the neighbour as well.
+// the patch's edge; crossings on the edge of rect may be found by the neighbour as well. What
+// does not shrink is cut in half, which is cheaper than to ask qi; but of all crossings qi tells
+// those apart that are close to each other.
 static bool search_rect(Walk *walk, const Piece *piece, BezierRect rect) {
-    const PatchRay *ray = &walk->ray;
-    Query *query = walk->query;
-    for (int step = 0; step < SEARCH_STEPS; step++) {
-        // The rectangle's corners and its middle are rounded: half sizes that surely hold it.
-        double hu = 0.5 * (rect.u1 - rect.u0) * (1.0 + 0x1p-50) + 0x1p-53;
-        double hv = 0.5 * (rect.v1 - rect.v0) * (1.0 + 0x1p-50) + 0x1p-53;
-        Point p;
-        query->stats.newton++;
-        look(ray, 0.5 * (rect.u0 + rect.u1), 0.5 * (rect.v0 + rect.v1), &p);
-        Bounds of = bound(ray, piece, &p, hu, hv);
-        Span a = solve(p.nu, of.wu, p.det, of.det_error, hu);
-        Span b = solve(p.nv, of.wv, p.det, of.det_error, hv);
-        if (a.low > a.high || b.low > b.high)
+    const bool cuts = walk->query->kind != QUERY_ALL;
+    struct {
+        BezierRect home, rect;
+    } parts[SEARCH_DEPTH + 1];
+    int count = 1;
+    parts[0].home = piece_rect(piece);
+    parts[0].rect = rect;
+    for (int step = 0; step < (cuts ? SEARCH_CUTS : SEARCH_STEPS); step++) {
+        BezierRect at = parts[count - 1].rect;
+        bool across_u;
+        Part part = look_at(walk, piece, parts[count - 1].home, &at, &across_u);
+        if (part == PART_STOP)
+            return false;
+        if (part == PART_DONE && --count == 0)
             return true;
-        if (of.single) {
-            const BezierRect r = piece_rect(piece);
-            double u = clamp(p.u + clamp(p.nu / p.det, a.low, a.high), r.u0, r.u1);
-            double v = clamp(p.v + clamp(p.nv / p.det, b.low, b.high), r.v0, r.v1);
-            Newton done = newton_sharpen(walk, piece, u, v);
-            if (done != NEWTON_LOST)
-                return done == NEWTON_TAKEN;
-        }
-        double kept = (a.high - a.low) * (b.high - b.low) / (4.0 * hu * hv);
-        rect = (BezierRect){clamp(p.u + a.low - 0x1p-53, rect.u0, rect.u1),
-                            clamp(p.u + a.high + 0x1p-53, rect.u0, rect.u1),
-                            clamp(p.v + b.low - 0x1p-53, rect.v0, rect.v1),
-                            clamp(p.v + b.high + 0x1p-53, rect.v0, rect.v1)};
-        if (!(kept < 0.5))
+        if (part == PART_DONE)
+            continue;
+        parts[count - 1].rect = at;
+        if (part == PART_SHRUNK)
+            continue;
+        if (!cuts || count > SEARCH_DEPTH)
             break;
+        BezierRect low = at, high = at;
+        if (across_u)
+            low.u1 = high.u0 = 0.5 * (at.u0 + at.u1);
+        else
+            low.v1 = high.v0 = 0.5 * (at.v0 + at.v1);
+        parts[count - 1].home = parts[count - 1].rect = high;
+        parts[count].home = parts[count].rect = low;
+        count++;
     }
+    // One search for all that is left.
+    rect = parts[0].rect;
+    for (int i = 1; i < count; i++)
+        rect = rect_union(rect, parts[i].rect);
     return search_qi(walk, rect);
 }
 

@@ -112,6 +112,7 @@ static inline const Piece *piece_begin(Walk *walk, uint32_t number) {
     walk->piece = number;
     if (walk->patch != piece->patch) {
         walk->patch = piece->patch;
+        prefetch(&accel->patches[piece->patch].own, sizeof accel->patches->own);
         patch_ray_init(&walk->ray, &accel->patches[piece->patch], &walk->query->ray, walk->dir,
                        walk->t_per_s);
     }
@@ -130,7 +131,7 @@ static inline bool search_piece(Walk *walk, const Block *block, const LeafLanes 
     if (lanes->single >> lane & 1) {
         double u, v;
         guess(piece, lanes, lane, &u, &v);
-        Newton done = newton_sharpen(walk, piece, u, v);
+        Newton done = newton_sharpen(walk, piece, piece_rect(piece), u, v);
         if (done != NEWTON_LOST)
             return done == NEWTON_TAKEN;
     }
@@ -159,6 +160,8 @@ static inline bool visit_leaf(Walk *walk, const KernelRay *tree, uint32_t leaf, 
     walk->query->stats.patch_tests += block->count;
     walk->query->stats.steps += block->count;
     unsigned meets = lanes.meets;
+    for (unsigned left = meets; left; left &= left - 1)
+        prefetch(&walk->accel->pieces[block->first + (uint32_t)__builtin_ctz(left)], sizeof(Piece));
     while (meets) {
         // From near to far.
         int lane = __builtin_ctz(meets);
@@ -239,6 +242,10 @@ static inline void walk_from(Walk *walk, KernelRay *ray, Entry at) {
                     for (; place > base && stack[place - 1].near < other.near; place--)
                         stack[place] = stack[place - 1];
                     stack[place] = other;
+                    if (other.child & TREE_LEAF)
+                        prefetch(&walk->accel->blocks[other.child & ~TREE_LEAF], sizeof(Block));
+                    else
+                        prefetch(&tree->nodes[other.child], sizeof(TreeNode));
                 }
                 continue;
             }

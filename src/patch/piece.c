@@ -23,7 +23,7 @@ enum { MAX_DEPTH = 20, FEW = 64 };
 // How far to go, by --prepare: pieces a patch and pieces in all, of about 350 bytes each. The patch
 // itself is 1,000 bytes.
 // ORDER patch_prepare
-static const struct { size_t a_patch, in_all; } limits[] = {{4096, 2000000}, {32, 900000}, {1, 1}};
+static const struct { size_t a_patch, in_all; } limits[] = {{4096, 4000000}, {32, 900000}, {1, 1}};
 
 typedef struct {
     BezierRect rect;
@@ -361,16 +361,21 @@ static void cut_patch(Cutter *k) {
 
 // ---- Layout
 
-static void make_patch(const PatchDef *def, double *local, AccelPatch *out) {
+static bool is_cubic(const PatchDef *def) { return def->degree_u == 3 && def->degree_v == 3; }
+
+// own: room for the points of a patch that is not bicubic.
+static void make_patch(const PatchDef *def, double *own, AccelPatch *out) {
     int rows = (int)def->degree_u + 1, columns = (int)def->degree_v + 1;
     Box box = box_empty();
     for (int i = 0; i < rows * columns; i++)
         box = box_extend(box, def->points[i]);
     *out = (AccelPatch){.def = def,
                         .center = vec_add(vec_scale(box.low, 0.5), vec_scale(box.high, 0.5)),
-                        .local = local,
-                        .cubic = rows == 4 && columns == 4,
+                        .cubic = is_cubic(def),
+                        .id = def->id,
                         .tolerance = def->tolerance};
+    double *local = out->cubic ? out->own : own;
+    out->local = local;
     double reach = 0.0;
     for (int i = 0; i < rows; i++) {
         for (int j = 0; j < columns; j++) {
@@ -393,10 +398,10 @@ static void make_patches(Arena *arena, Accel *accel) {
     for (size_t i = 0; i < accel->patch_count; i++) {
         const PatchDef *def = &accel->defs[i];
         first[i] = sum;
-        sum += 3 * (size_t)(def->degree_u + 1) * (def->degree_v + 1);
+        if (!is_cubic(def))
+            sum += 3 * (size_t)(def->degree_u + 1) * (def->degree_v + 1);
     }
-    // One more, since a point is read as four numbers.
-    double *local = ARENA_ARRAY(arena, double, sum + 1);
+    double *local = ARENA_ARRAY(arena, double, sum);
     accel->patches = ARENA_ARRAY(arena, AccelPatch, accel->patch_count);
 #pragma omp parallel for schedule(static)
     for (size_t i = 0; i < accel->patch_count; i++)

@@ -20,16 +20,20 @@
 enum { BLOCK_LANES = 8 };
 
 // Everything local counts from the patch's center, so that its rounding is relative to the patch
-// and not to its place.
+// and not to its place. What a ray needs of a bicubic patch lies together: where there are many
+// patches each line of it comes from memory, and those whose address is known come at once.
 typedef struct {
-    const PatchDef *def;
-    Vec3 center;
-    const double *local; // points less center; cubic: [column][row][3], else [3][row][column]
-    bool cubic;          // bi-degree (3,3)
+    _Alignas(64) Vec3 center;
     double rounding;     // of a coordinate of S; of its derivatives: times twice the degree
-    double radius;       // of a ball that holds all points
     double tolerance;    // scene units
+    double radius;       // of a ball that holds all points
+    const double *local; // points less center; cubic: [column][row][3], else [3][row][column]
+    uint32_t id;         // the definition's
+    bool cubic;          // bi-degree (3,3); then local is own
+    double own[49];      // one more, since a point is read as four numbers
+    const PatchDef *def;
 } AccelPatch;
+_Static_assert(sizeof(AccelPatch) == 512, "eight lines of cache");
 
 // How far outside its rectangle, in shares of its size, a piece's bounds still hold.
 #define PIECE_MARGIN 0x1p-20

@@ -194,6 +194,11 @@ solids-pictures: deps
 	@$(MAKE) --no-print-directory -j$$(nproc) all
 	@tests/solids_pictures.sh >tests/solids_pictures.txt; status=$$?; cat tests/solids_pictures.txt; exit $$status
 
+# How work grows with the number of solids and of copies; README's table (two minutes).
+scaling: deps
+	@$(MAKE) --no-print-directory -j$$(nproc) all
+	@tests/scaling.sh
+
 lint:
 	@tests/deps.sh $(LINT_PACKAGES)
 	@tests/lint.sh
@@ -306,6 +311,7 @@ stress: deps
 .PHONY: pages
 .PHONY: points
 .PHONY: report
+.PHONY: scaling
 .PHONY: sheet
 .PHONY: solids
 .PHONY: solids-pictures

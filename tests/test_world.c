@@ -414,6 +414,7 @@ static void test_flags(void **state) {
                 assert_int_equal(sees(&stage, 0, kinds[kind]), kind != flag || !hides[way][flag]);
                 assert_true(sees(&stage, 3, kinds[kind]));
             }
+            assert_int_equal(sees(&stage, 0, RAY_REFRACTED), flag != 0);
             stage_end(&stage);
         }
 }

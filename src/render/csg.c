@@ -5,6 +5,7 @@
 
 #include "base/array.h"
 #include "base/diag.h"
+#include "render/world.h"
 
 static const Box EVERYWHERE = {{-INFINITY, -INFINITY, -INFINITY}, {INFINITY, INFINITY, INFINITY}};
 
@@ -267,22 +268,37 @@ bool csg_inside(const Csg *csg, uint32_t index, Vec3 p) {
            csg_inside_unclipped(csg, index, p);
 }
 
-// Is p inside all children, or none, but `own`?
-static bool others(const Csg *csg, const CsgNode *tree, uint32_t own, Vec3 p, bool inside) {
+// Is p inside all children but `own`?
+static bool inside_others(const Csg *csg, const CsgNode *tree, uint32_t own, Vec3 p) {
     for (uint32_t c = tree->first; c != NO_INDEX; c = csg->nodes[c].next)
-        if (c != own && csg_inside(csg, c, p) != inside)
+        if (c != own && !csg_inside(csg, c, p))
             return false;
     return true;
 }
 
-bool csg_keeps(const Csg *csg, uint32_t index, Vec3 p) {
+// Is p outside all children but `own`, as far as rays of that kind see them?
+static bool outside_others(const Csg *csg, const CsgNode *tree, uint32_t own, Vec3 p,
+                           uint32_t kind) {
+    for (uint32_t c = tree->first; c != NO_INDEX; c = csg->nodes[c].next) {
+        const Object *object = csg->nodes[c].object;
+        bool hidden = (object->no_image && (kind & RAY_IMAGE)) ||
+                      (object->no_reflection && (kind & RAY_REFLECTION));
+        if (c != own && !hidden && csg_inside(csg, c, p))
+            return false;
+    }
+    return true;
+}
+
+bool csg_keeps(const Csg *csg, uint32_t index, Vec3 p, uint32_t kind) {
     if (!inside_clips(csg, &csg->nodes[index], p))
         return false;
     uint32_t own = index;
     for (uint32_t t = csg->nodes[index].parent; t != NO_INDEX; own = t, t = csg->nodes[t].parent) {
         const CsgNode *tree = &csg->nodes[t];
         ObjectType type = tree->object->type;
-        if (type != OBJECT_UNION && !others(csg, tree, own, p, type == OBJECT_INTERSECTION))
+        if (type == OBJECT_INTERSECTION && !inside_others(csg, tree, own, p))
+            return false;
+        if (type == OBJECT_MERGE && !outside_others(csg, tree, own, p, kind))
             return false;
         if (!inside_clips(csg, tree, p))
             return false;
@@ -296,7 +312,7 @@ bool csg_fills(const Csg *csg, uint32_t index, Vec3 p) {
     uint32_t own = index;
     for (uint32_t t = csg->nodes[index].parent; t != NO_INDEX; own = t, t = csg->nodes[t].parent) {
         const CsgNode *tree = &csg->nodes[t];
-        if (tree->object->type == OBJECT_INTERSECTION && !others(csg, tree, own, p, true))
+        if (tree->object->type == OBJECT_INTERSECTION && !inside_others(csg, tree, own, p))
             return false;
         if (!inside_clips(csg, tree, p))
             return false;

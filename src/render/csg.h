@@ -45,8 +45,9 @@ void csg_destroy(Csg *csg);          // what is not in the arena
 uint64_t csg_memory(const Csg *csg); // of that, bytes
 // Is there anything that could hide hits of this leaf?
 bool csg_is_watched(const Csg *csg, uint32_t node);
-// Does a hit of the leaf at p count?
-bool csg_keeps(const Csg *csg, uint32_t node, Vec3 p);
+// Does a hit of the leaf at p count, to a ray of that kind (RayKind; 0: flags hide nothing)? A
+// child of a merge that is hidden from the ray hides nothing of the others.
+bool csg_keeps(const Csg *csg, uint32_t node, Vec3 p, uint32_t kind);
 bool csg_inside(const Csg *csg, uint32_t node, Vec3 p);
 bool csg_inside_unclipped(const Csg *csg, uint32_t node, Vec3 p); // its own clips do not count
 // Does the ray, of unit direction, meet all that bounds the leaves with this gate? *entry: where it

@@ -18,7 +18,7 @@ typedef struct {
 static double try_body_hit(void *context, const ShapeHit *hit) {
     BodyQuery *query = context;
     if (hit->t >= LEAST_DEPTH &&
-        csg_keeps(query->csg, query->leaf, vec_madd(query->ray->org, hit->t, query->ray->dir)))
+        csg_keeps(query->csg, query->leaf, vec_madd(query->ray->org, hit->t, query->ray->dir), 0))
         query->met = true;
     return query->met ? -INFINITY : INFINITY;
 }

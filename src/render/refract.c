@@ -49,6 +49,7 @@ bool refract_trace(Tracer *tracer, const Surface *surface, const Finish *finish,
     next.from = surface->hit;
     next.weight = weight;
     next.nesting++;
+    next.kind = path->kind == RAY_CAMERA ? RAY_REFRACTED : path->kind;
     bool together = fabs(bending.dispersion - 1.0) < SHADE_EPS;
     if (together && fabs(bending.ior - 1.0) < SHADE_EPS) {
         tracer->stats.transmitted++;

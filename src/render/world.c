@@ -158,7 +158,7 @@ static bool counts(RayQuery *query, double depth, double t_min, const Leaf *leaf
     if (!leaf->watched)
         return true;
     Vec3 p = vec_madd(query->ray->org, depth, query->ray->dir);
-    if (!csg_keeps(&query->world->csg, leaf->node, p) || !is_admitted(query, leaf))
+    if (!csg_keeps(&query->world->csg, leaf->node, p, query->kind) || !is_admitted(query, leaf))
         return false;
     *t = fmax(depth, query->entry);
     return comes_first(query, *t, depth, leaf);

@@ -10,11 +10,14 @@
 
 // What a ray is for; also the bits of an object's mask (no_image, no_reflection, no_shadow).
 typedef enum {
-    RAY_CAMERA = 1,     // primary, and refracted or passed straight through from those
+    RAY_CAMERA = 1,
     RAY_REFLECTION = 2, // reflected at least once
     RAY_SHADOW = 4,
-    RAY_ALL = 7,
+    RAY_REFRACTED = 8, // or passed straight through, and not reflected
+    RAY_ALL = 15,
 } RayKind;
+// Those that no_image hides things from.
+#define RAY_IMAGE (RAY_CAMERA | RAY_REFRACTED)
 
 typedef struct {
     uint64_t primary, reflected, refracted, transmitted, shadow; // rays

@@ -5,7 +5,8 @@
 //
 // Flags as POV-Ray keeps them: a tree other than a plain union at top level casts a shadow as a
 // whole, by its own no_shadow. Inside it a merge heeds no_image and no_reflection of its children,
-// a union only no_reflection (measured), an intersection neither.
+// a union no_reflection, and no_image but for rays straight from the camera (measured), an
+// intersection neither.
 #include "render/world_data.h"
 
 #include "base/array.h"
@@ -43,7 +44,7 @@ static bool is_frame(const Object *object) { return has_stack(object) || object-
 
 // Bits of the rays that pass by the object for its flags, where it stands.
 static uint32_t blind_to(const Scene *scene, const Object *object, const Place *place) {
-    uint32_t image = object->no_image ? RAY_CAMERA : 0;
+    uint32_t image = object->no_image ? RAY_IMAGE : 0;
     uint32_t reflection = object->no_reflection ? RAY_REFLECTION : 0;
     if (place->frame == NO_INDEX)
         return is_frame(object) ? image | reflection | (object->no_shadow ? RAY_SHADOW : 0) : 0;
@@ -51,7 +52,7 @@ static uint32_t blind_to(const Scene *scene, const Object *object, const Place *
     case OBJECT_MERGE:
         return image | reflection;
     case OBJECT_UNION:
-        return reflection;
+        return (image & ~(uint32_t)RAY_CAMERA) | reflection;
     default:
         return 0;
     }

@@ -49,8 +49,13 @@ static bool inside(const void *data, Vec3 p) {
     return vec_dot(vec_add(matrix_times(q, p), q->linear), p) + q->constant <= 0.0;
 }
 
-static const SolidOps OPS = {
-    .near = 1e-6, .far = SHAPE_FARTHEST, .hits = hits, .normal = normal, .inside = inside};
+// POV-Ray turns the normal of an inverse quadric round twice.
+static const SolidOps OPS = {.near = 1e-6,
+                             .far = SHAPE_FARTHEST,
+                             .hits = hits,
+                             .normal = normal,
+                             .inside = inside,
+                             .keeps_normal = true};
 
 // With negative squares the inside is what lies around the ellipsoid.
 static const SolidOps OPS_AROUND = {.near = 1e-6,
@@ -58,7 +63,8 @@ static const SolidOps OPS_AROUND = {.near = 1e-6,
                                     .hits = hits,
                                     .normal = normal,
                                     .inside = inside,
-                                    .deep = true};
+                                    .deep = true,
+                                    .keeps_normal = true};
 
 // Of ellipsoids and elliptic cylinders along the axes: sum of k (x - c)^2 = rest, all k of one
 // sign. Infinite where there is no such bound.

@@ -122,7 +122,9 @@ static Vec3 normal_of(const Shape *shape, Vec3 p, const ShapeHit *hit) {
 
 Vec3 shape_normal(const Shape *shape, Vec3 p, const ShapeHit *hit) {
     Vec3 normal = normal_of(shape, p, hit);
-    return shape->inverse ? vec_neg(normal) : normal;
+    bool turned =
+        shape->inverse && !(shape->kind == SHAPE_SOLID && shape->as.solid.ops->keeps_normal);
+    return turned ? vec_neg(normal) : normal;
 }
 
 Vec2 shape_uv(const Shape *shape, Vec3 p, const ShapeHit *hit) {

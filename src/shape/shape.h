@@ -58,7 +58,7 @@ typedef struct {
 
 typedef struct {
     ShapeKind kind;
-    bool inverse;               // flips the normal and the inside; never set for planes
+    bool inverse; // flips the inside, and the normal of all but quadrics; never set for planes
     const Transform *transform; // local to world; NULL: local space is the world
     const uint32_t *textures;   // what the numbers of a mesh stand for
     union {
@@ -119,7 +119,8 @@ typedef struct {
 enum { SHAPE_MAX_TEXTURES = HIT_MAX_TEXTURES };
 uint32_t shape_textures(const Shape *shape, Vec3 p, const ShapeHit *hit,
                         ShapeTexture out[SHAPE_MAX_TEXTURES]);
-// Unit normal at p, the point of a hit; points out of the inside, `inverse` applied.
+// Unit normal at p, the point of a hit; points out of the inside, `inverse` applied (but not to
+// quadrics).
 Vec3 shape_normal(const Shape *shape, Vec3 p, const ShapeHit *hit);
 // Texture coordinates at p. Sphere, box and torus have a mapping of their own; for the others
 // POV-Ray takes the world's x and y.

@@ -27,7 +27,8 @@ struct SolidOps {
     Vec3 (*normal)(const void *data, Vec3 p, const ShapeHit *hit);
     bool (*inside)(const void *data, Vec3 p);                  // NULL: no point ever is
     Vec2 (*uv)(const void *data, Vec3 p, const ShapeHit *hit); // NULL: the world's x and y
-    bool deep; // points outside of the box may be inside
+    bool deep;         // points outside of the box may be inside
+    bool keeps_normal; // also under `inverse`, as POV-Ray has it
     // NULL: it has none of its own.
     uint32_t (*textures)(const void *data, Vec3 p, const ShapeHit *hit, ShapeTexture *out);
     // Instead of normal: unit, in the world. transform may be NULL.

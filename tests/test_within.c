@@ -116,11 +116,93 @@ static void test_hyperboloid_between_planes_is_finite(void **state) {
     }
 }
 
+static bool holds(const Box *box, Vec3 p) {
+    return p.x >= box->low.x && p.x <= box->high.x && p.y >= box->low.y && p.y <= box->high.y &&
+           p.z >= box->low.z && p.z <= box->high.z;
+}
+
+static Vec3 random_direction(Rng *rng) {
+    for (;;) {
+        Vec3 v = vec3(rng_range(rng, -1, 1), rng_range(rng, -1, 1), rng_range(rng, -1, 1));
+        double length = vec_length(v);
+        if (length > 0.1 && length < 1.0)
+            return vec_scale(v, 1.0 / length);
+    }
+}
+
+// The plane that a ray from within all comes to first; INFINITY: none.
+static double first_plane(const PlaneShape *planes, uint32_t count, Vec3 org, Vec3 dir,
+                          uint32_t *own) {
+    double nearest = INFINITY;
+    for (uint32_t i = 0; i < count; i++) {
+        double slope = vec_dot(planes[i].normal, dir);
+        double t = (planes[i].distance - vec_dot(planes[i].normal, org)) / slope;
+        if (slope > 0.0 && t < nearest)
+            nearest = t, *own = i;
+    }
+    return nearest;
+}
+
+// Rays at random from within bodies of 4 to 14 planes: where they leave is in the boxes.
+static void test_boxes_of_planes_hold_their_faces(void **state) {
+    (void)state;
+    Rng rng = {.state = 77};
+    int bodies = 0, open = 0, tight = 0;
+    for (int round = 0; round < 200; round++) {
+        PlaneShape planes[14];
+        uint32_t count = 4 + (uint32_t)(rng_unit(&rng) * 11.0), own;
+        double scale = pow(10.0, rng_range(&rng, -3, 3));
+        Vec3 middle = vec_scale(random_direction(&rng), 3.0 * scale);
+        for (uint32_t i = 0; i < count; i++) {
+            Vec3 n = random_direction(&rng);
+            planes[i] = (PlaneShape){n, vec_dot(n, middle) + scale * rng_range(&rng, 0.2, 1)};
+        }
+        Box all, faces[SHAPE_MOST_PLANES], seen = box_empty();
+        bool closed = shape_planes_box(planes, count, &all, faces);
+        bodies += closed, open += !closed;
+        bool leaks = false;
+        for (int r = 0; r < 2000; r++) {
+            Vec3 dir = random_direction(&rng);
+            double t = first_plane(planes, count, middle, dir, &own);
+            leaks = leaks || !isfinite(t);
+            if (!closed || leaks)
+                continue;
+            Vec3 p = vec_madd(middle, t, dir);
+            assert_true(holds(&all, p) && holds(&faces[own], p));
+            seen = box_extend(seen, p);
+        }
+        assert_false(closed && leaks);
+        // Not much wider than what was seen, but for needles.
+        tight += closed && vec_length(vec_sub(all.high, all.low)) <
+                               1.5 * vec_length(vec_sub(seen.high, seen.low));
+    }
+    print_message("%d bodies, %d of them tight; %d open\n", bodies, tight, open);
+    assert_true(bodies > 50 && open > 20 && 4 * tight > 3 * bodies);
+}
+
+static void test_box_of_a_turned_cube_is_its_own(void **state) {
+    (void)state;
+    const double k = sqrt(0.5);
+    PlaneShape planes[7] = {{{k, k, 0}, k}, {{-k, -k, 0}, k}, {{k, -k, 0}, k}, {{-k, k, 0}, k},
+                            {{0, 0, 1}, 2}, {{0, 0, -1}, 3},  {{1, 0, 0}, 5}};
+    Box all, faces[SHAPE_MOST_PLANES];
+    assert_true(shape_planes_box(planes, 6, &all, faces));
+    assert_true(fabs(all.high.x - 1) < 1e-5 && fabs(all.low.y + 1) < 1e-5);
+    assert_true(fabs(all.high.z - 2) < 1e-5 && fabs(all.low.z + 3) < 1e-5);
+    assert_true(fabs(faces[0].low.x) < 1e-5 && fabs(faces[0].high.x - 1) < 1e-5);
+    assert_true(fabs(faces[4].low.z - 2) < 1e-5);
+    assert_true(shape_planes_box(planes, 7, &all, faces));
+    assert_true(faces[6].low.x > faces[6].high.x); // beyond the body
+    assert_false(shape_planes_box(planes, 5, &all, faces));
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_keeps_all_points),
         cmocka_unit_test(test_plane_along_an_axis_cuts),
         cmocka_unit_test(test_hyperboloid_between_planes_is_finite),
+        cmocka_unit_test(test_boxes_of_planes_hold_their_faces),
+        cmocka_unit_test(test_box_of_a_turned_cube_is_its_own),
     };
     return cmocka_run_group_tests_name("within", tests, create_arena, destroy_arena);
 }

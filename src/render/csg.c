@@ -79,6 +79,27 @@ static uint32_t make_list(Maker *maker, const ObjectList *list, uint32_t parent,
     return first;
 }
 
+// Planes of an intersection that enclose something: each is seen only where it is a face of that.
+// The first SHAPE_MOST_PLANES are taken.
+static void narrow_to_faces(Maker *maker, CsgNode *node) {
+    PlaneShape planes[SHAPE_MOST_PLANES];
+    uint32_t members[SHAPE_MOST_PLANES], count = 0;
+    CsgNode *nodes = maker->nodes.items;
+    for (uint32_t c = node->first; c != NO_INDEX && count < SHAPE_MOST_PLANES; c = nodes[c].next) {
+        if (!nodes[c].shape || nodes[c].shape->kind != SHAPE_PLANE)
+            continue;
+        members[count] = c;
+        planes[count++] = nodes[c].shape->as.plane;
+    }
+    Box all, faces[SHAPE_MOST_PLANES];
+    if (count < 4 || !shape_planes_box(planes, count, &all, faces))
+        return;
+    for (uint32_t i = 0; i < count; i++)
+        nodes[members[i]].reach = box_common(nodes[members[i]].reach, faces[i]);
+    node->inside = box_common(node->inside, all);
+    node->reach = box_common(node->reach, all);
+}
+
 // What is within all of a list of shapes. Twice: planes at the end of the list bound quadrics at
 // its beginning.
 static void narrow(const Maker *maker, CsgNode *node, uint32_t list) {
@@ -95,7 +116,7 @@ static void narrow(const Maker *maker, CsgNode *node, uint32_t list) {
 
 // What all children together contain, and where their surfaces are. The surface of an intersection
 // lies within each child, or on it.
-static void join_children(const Maker *maker, CsgNode *node) {
+static void join_children(Maker *maker, CsgNode *node) {
     bool all = node->object->type == OBJECT_INTERSECTION;
     node->inside = node->reach = all ? EVERYWHERE : box_empty();
     for (uint32_t c = node->first; c != NO_INDEX; c = maker->nodes.items[c].next) {
@@ -108,8 +129,11 @@ static void join_children(const Maker *maker, CsgNode *node) {
         node->solid_count += child->solid;
     }
     node->solid = node->solid_count > 0 && (!all || node->solid_count == node->child_count);
-    if (all)
-        narrow(maker, node, node->first);
+    if (!all)
+        return;
+    if (!vec_is_finite(node->reach.low) || !vec_is_finite(node->reach.high))
+        narrow_to_faces(maker, node);
+    narrow(maker, node, node->first);
 }
 
 // Also inverted it has its surface where it was.

@@ -136,6 +136,10 @@ bool shape_inside_bounded(const Shape *shape);
 // Holds what of the inside and of the surface lies in `around` (which may be infinite): planes
 // along the axes cut it, and so do quadrics. Others leave it as it is.
 Box shape_within(const Shape *shape, Box around);
+// The box of what planes enclose, and of the part of each plane (one box each, perhaps an empty
+// one) that is on its surface. False: they enclose nothing finite, or are too many.
+enum { SHAPE_MOST_PLANES = 32 };
+bool shape_planes_box(const PlaneShape *planes, uint32_t count, Box *all, Box *faces);
 // The bounds in a space that `space` (NULL: it is the world) takes to the world.
 Box shape_bounds_in(const Shape *shape, const Transform *space);
 

@@ -4,9 +4,11 @@
 #ifndef PATCH_QI_BOUND_H
 #define PATCH_QI_BOUND_H
 
+#include "base/lanes.h"
 #include "patch/qi_root.h"
 
 #include <float.h>
+#include <string.h>
 
 enum { LINE = BEZIER_MAX_DEGREE + 1, POINTS = BEZIER_MAX_POINTS };
 
@@ -49,27 +51,35 @@ static inline void restriction(double *w, int step_k, int step_i, int d, double 
     }
 }
 
-// out = wu p wv; the inner loops run along rows, so that they vectorise.
+// out = a b, of so many rows and columns; n: columns of a. Four columns at a time, the last four
+// once more where four do not divide them.
+static inline void multiply(const double *a, const double *b, int rows, int n, int columns,
+                            double *restrict out) {
+    for (int k = 0; k < rows; k++, a += n, out += columns) {
+        for (int at = 0; columns >= 4 && at < columns; at += 4) {
+            int m = at + 4 <= columns ? at : columns - 4;
+            Lanes2 low = a[0] * lanes2_load(b + m), high = a[0] * lanes2_load(b + m + 2);
+            for (int j = 1; j < n; j++) {
+                low += a[j] * lanes2_load(b + j * columns + m);
+                high += a[j] * lanes2_load(b + j * columns + m + 2);
+            }
+            memcpy(out + m, &low, sizeof low);
+            memcpy(out + m + 2, &high, sizeof high);
+        }
+        for (int m = 0; columns < 4 && m < columns; m++) {
+            out[m] = a[0] * b[m];
+            for (int j = 1; j < n; j++)
+                out[m] += a[j] * b[j * columns + m];
+        }
+    }
+}
+
+// out = wu p wv.
 static inline void restrict_axis(const double *p, const double *wu, const double *wv, int du,
                                  int dv, double *restrict out) {
     double half[POINTS];
-    int nu = du + 1, nv = dv + 1;
-    for (int k = 0; k < nu; k++) {
-        for (int j = 0; j < nv; j++) {
-            double sum = wu[k * nu] * p[j];
-            for (int i = 1; i < nu; i++)
-                sum += wu[k * nu + i] * p[i * nv + j];
-            half[k * nv + j] = sum;
-        }
-    }
-    for (int k = 0; k < nu; k++) {
-        for (int m = 0; m < nv; m++) {
-            double sum = half[k * nv] * wv[m];
-            for (int j = 1; j < nv; j++)
-                sum += half[k * nv + j] * wv[j * nv + m];
-            out[k * nv + m] = sum;
-        }
-    }
+    multiply(wu, p, du + 1, du + 1, dv + 1, half);
+    multiply(half, wv, du + 1, dv + 1, dv + 1, out);
 }
 
 static inline Span span_of(const double *p, int count) {

@@ -32,6 +32,7 @@
 #include "patch/qi.h"
 
 #include "patch/qi_bend.h"
+#include "patch/qi_local.h"
 #include "patch/qi_pole.h"
 #include "patch/quasi.h"
 
@@ -53,6 +54,8 @@ typedef struct {
     QiTarget target;
     unsigned poles; // qi_poles()
     uint64_t steps, work_limit;
+    bool has_local;
+    QiLocal local; // of where to look
 } Search;
 
 // The part of [low,high] that a local span leaves, rounded outwards by some ulps of 1.
@@ -92,7 +95,7 @@ static bool within_rational(const QiNet *p, int count, double radius) {
 
 // ---- One step ----
 
-typedef enum { STEP_DONE, STEP_AGAIN, STEP_BOTH } Step;
+typedef enum { STEP_DONE, STEP_AGAIN, STEP_BOTH, STEP_HERE } Step;
 
 // What a step leaves of its piece: one part, or two.
 typedef struct {
@@ -186,22 +189,10 @@ static inline BezierRect part_of(const Piece *p, Span u, Span v) {
     return part;
 }
 
-// Restricts the patch, reads the parameters off. False: the ray misses the piece, or meets it only
-// at depths that do not count.
-static inline bool reduce_piece(Search *q, int du, int dv, Piece *p) {
-    const QiTarget *target = &q->target;
-    const BezierRect r = p->rect;
-    double wu[LINE * LINE], wv[LINE * LINE];
-    q->steps++;
-    restriction(wu, du + 1, 1, du, r.u0, r.u1);
-    restriction(wv, 1, dv + 1, dv, r.v0, r.v1);
-    restrict_axis(target->whole.x, wu, wv, du, dv, p->net.x);
-    restrict_axis(target->whole.y, wu, wv, du, dv, p->net.y);
-    if (target->rational) {
-        restrict_axis(target->whole.z, wu, wv, du, dv, p->net.z);
-        restrict_axis(target->whole.w, wu, wv, du, dv, p->net.w);
-        scale_rational(&p->net, (du + 1) * (dv + 1));
-    }
+// Reads the parameters off x and y of the piece's net; frame has the net's rounding. False: the ray
+// misses the piece.
+static inline bool read_off(const QiTarget *target, const QiFrame *frame, int du, int dv,
+                            Piece *p) {
     double xu = trend_u(p->net.x, du, dv), yu = trend_u(p->net.y, du, dv);
     double xv = trend_v(p->net.x, du, dv), yv = trend_v(p->net.y, du, dv);
     p->regular = regular_forms(target, xu, yu, xv, yv, p->forms);
@@ -212,20 +203,44 @@ static inline bool reduce_piece(Search *q, int du, int dv, Piece *p) {
     p->u = p->v = (Span){0.0, 1.0};
     for (int k = 0; k < 2; k++) {
         QiForm f = p->forms[k];
-        p->bounds[k] = bound_remainder(&p->net, du, dv, f, zu, zv, &target->frame);
+        p->bounds[k] = bound_remainder(&p->net, du, dv, f, zu, zv, frame);
         if (!clip(f.au, f.av, p->bounds[k].span, p->v, &p->u) ||
             !clip(f.av, f.au, p->bounds[k].span, p->u, &p->v))
             return false;
     }
-    if (!target->rational)
-        restrict_axis(target->whole.z, wu, wv, du, dv, p->net.z);
-    Span depth = span_of(p->net.z, (du + 1) * (dv + 1));
-    if (depth.high + target->frame.slack_z < target->frame.z_low ||
-        depth.low - target->frame.slack_z > qi_list_z_high(&target->list, &target->frame))
-        return false;
-
     p->left = part_of(p, p->u, p->v);
     return true;
+}
+
+// Do any of the piece's depths count, which err by `slack`?
+static inline bool depths_count(const QiTarget *target, double slack, const Piece *p, int count) {
+    Span depth = span_of(p->net.z, count);
+    return depth.high + slack >= target->frame.z_low &&
+           depth.low - slack <= qi_list_z_high(&target->list, &target->frame);
+}
+
+// Restricts the patch, reads the parameters off. False: the ray misses the piece, or meets it only
+// at depths that do not count.
+static inline bool reduce_piece(Search *q, int du, int dv, Piece *p) {
+    const QiTarget *target = &q->target;
+    const BezierRect r = p->rect;
+    double wu[LINE * LINE], wv[LINE * LINE];
+    int count = (du + 1) * (dv + 1);
+    q->steps++;
+    restriction(wu, du + 1, 1, du, r.u0, r.u1);
+    restriction(wv, 1, dv + 1, dv, r.v0, r.v1);
+    restrict_axis(target->whole.x, wu, wv, du, dv, p->net.x);
+    restrict_axis(target->whole.y, wu, wv, du, dv, p->net.y);
+    if (target->rational) {
+        restrict_axis(target->whole.z, wu, wv, du, dv, p->net.z);
+        restrict_axis(target->whole.w, wu, wv, du, dv, p->net.w);
+        scale_rational(&p->net, count);
+    }
+    if (!read_off(target, &target->frame, du, dv, p))
+        return false;
+    if (!target->rational)
+        restrict_axis(target->whole.z, wu, wv, du, dv, p->net.z);
+    return depths_count(target, target->frame.slack_z, p, count);
 }
 
 // L, and the rounding of the parameters of a root in a piece's own units. A rotation's forms
@@ -382,10 +397,10 @@ static inline double width_of(BezierRect r, bool along_u) {
 
 // Clips a piece of a singular J by its bend: STEP_DONE if nothing is left, STEP_BOTH if *rest has
 // two parts of at most half the length, else STEP_AGAIN and what is left in p.
-static inline Step bend_piece(const Search *q, int du, int dv, Piece *p, Rest *rest) {
+static inline Step bend_piece(const QiFrame *frame, int du, int dv, Piece *p, Rest *rest) {
     Span us[2], vs[2];
     int count = bend_clip(&p->net, du, dv, p->forms, p->bounds[0].span, quasi_z_infinity(du),
-                          quasi_z_infinity(dv), &q->target.frame, p->u, p->v, us, vs);
+                          quasi_z_infinity(dv), frame, p->u, p->v, us, vs);
     if (count == 0)
         return STEP_DONE;
     if (count == 1) {
@@ -423,7 +438,7 @@ static inline Step step_of(Search *q, BezierRect rect, int du, int dv, Rest *res
     if (finish_singular(q, (du + 1) * (dv + 1), &p, least))
         return STEP_DONE;
     if (!p.regular) {
-        Step step = bend_piece(q, du, dv, &p, rest);
+        Step step = bend_piece(&q->target.frame, du, dv, &p, rest);
         if (step != STEP_AGAIN)
             return step;
         rest->rect = p.left;
@@ -444,8 +459,61 @@ static inline Step step_of(Search *q, BezierRect rect, int du, int dv, Rest *res
 
 // The bicubic case gets its own copy, with loops of known length.
 static Step step_bicubic(Search *q, BezierRect r, Rest *rest) { return step_of(q, r, 3, 3, rest); }
-static Step step_any(Search *q, BezierRect r, Rest *rest) {
+static Step step_full(Search *q, BezierRect r, Rest *rest) {
     return step_of(q, r, q->target.du, q->target.dv, rest);
+}
+
+// A step by the part's own bicubic, without what needs the true net. STEP_HERE: it did not help.
+static Step step_local(Search *q, BezierRect rect, Rest *rest) {
+    const QiTarget *target = &q->target;
+    QiFrame frame = target->frame;
+    Piece p;
+    p.rect = rect;
+    q->steps++;
+    qi_local_cut(&q->local, rect, 0, p.net.x, &frame.slack_x);
+    qi_local_cut(&q->local, rect, 1, p.net.y, &frame.slack_y);
+    if (!read_off(target, &frame, 3, 3, &p))
+        return STEP_DONE;
+    qi_local_cut(&q->local, rect, 2, p.net.z, &frame.slack_z);
+    if (!depths_count(target, frame.slack_z, &p, 16))
+        return STEP_DONE;
+    for (int k = 0; k < 2; k++)
+        p.bounds[k].slope += 8.0 * form_slack(p.forms[k], &frame);
+    if (finish_single(q, &p))
+        return STEP_DONE;
+    if (!p.regular && !shrank(&p)) {
+        Step step = bend_piece(&frame, 3, 3, &p, rest);
+        if (step != STEP_AGAIN)
+            return step;
+    }
+    rest->rect = p.left;
+    return shrank(&p) ? STEP_AGAIN : STEP_HERE;
+}
+
+static Step step_any(Search *q, BezierRect r, Rest *rest) {
+    if (q->has_local) {
+        Step step = step_local(q, r, rest);
+        if (step != STEP_HERE)
+            return step;
+        r = rest->rect;
+    }
+    return step_full(q, r, rest);
+}
+
+// The net of where to look, for patches of high degree.
+static bool make_local(const QiTarget *target, BezierRect r, QiLocal *local) {
+    int du = target->du, dv = target->dv;
+    if (target->rational || !qi_local_pays(du, dv) || !(r.u0 < r.u1 && r.v0 < r.v1))
+        return false;
+    double wu[LINE * LINE], wv[LINE * LINE];
+    QiNet net;
+    restriction(wu, du + 1, 1, du, r.u0, r.u1);
+    restriction(wv, 1, dv + 1, dv, r.v0, r.v1);
+    restrict_axis(target->whole.x, wu, wv, du, dv, net.x);
+    restrict_axis(target->whole.y, wu, wv, du, dv, net.y);
+    restrict_axis(target->whole.z, wu, wv, du, dv, net.z);
+    qi_local_init(local, &target->frame, du, dv, &net, r);
+    return true;
 }
 
 static double middle_off(const Search *q, BezierRect r) {
@@ -486,6 +554,7 @@ static int intersect(const Bezier *patch, const double *weights, const QiQuery *
                         mode == QI_ALL ? QI_MAX_HITS : 1))
         return 0;
     q.poles = qi_poles(&q.target);
+    q.has_local = make_local(&q.target, query->rect, &q.local);
     q.steps = 0;
     q.work_limit = (uint64_t)qi_work_limit(patch);
     search(&q, query->rect);

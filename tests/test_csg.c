@@ -280,8 +280,67 @@ static void test_clips_open(void **state) {
     stage_end(&stage);
 }
 
+// Many children, of which a point meets few: merges of small bodies, walls with small holes, in
+// each other; and bodies without a box among them. Also hit by hit.
+static uint32_t wide_tree(Stage *stage, Rng *rng, bool holes) {
+    enum { CHILDREN = 60 };
+    uint32_t items[CHILDREN];
+    for (int i = 0; i < CHILDREN; i++) {
+        items[i] = random_leaf(stage, rng);
+        Object *object = &stage->objects.items[items[i]];
+        if (i % 20 == 3 || object->type == OBJECT_PLANE) {
+            *object = stage_box(vec3(-1.5, -1.5, -1.5), vec3(1.5, 1.5, 1.5));
+            if (!holes)
+                object->shape.box.low.y = 1.2;
+            continue;
+        }
+        Transform small = transform_scale(vec3(0.3, 0.3, 0.3));
+        Transform move = transform_translate(random_vec(rng, 1.3));
+        if (object->has_transform)
+            small = transform_compose(&object->transform, &small);
+        object->has_transform = true;
+        object->transform = transform_compose(&small, &move);
+        object->inverse = holes;
+    }
+    return stage_put_group(stage, holes ? OBJECT_INTERSECTION : OBJECT_MERGE, items, CHILDREN);
+}
+
+static void test_wide(void **state) {
+    (void)state;
+    int inside = 0, outside = 0;
+    for (uint64_t seed = 1; seed <= 12; seed++) {
+        Rng rng = {seed * 5};
+        Stage stage = stage_begin();
+        uint32_t a = wide_tree(&stage, &rng, seed % 2), b = wide_tree(&stage, &rng, seed % 3 == 0);
+        uint32_t items[2] = {a, b};
+        uint32_t root =
+            stage_put_group(&stage, seed % 4 < 2 ? OBJECT_MERGE : OBJECT_INTERSECTION, items, 2);
+        stage_put_root(&stage, root);
+        stage_ready(&stage, false);
+        for (int i = 0; i < 400; i++) {
+            Vec3 p = random_vec(&rng, 1.6);
+            bool want = member(&stage, root, p);
+            assert_int_equal(world_inside(stage.world, root, p), want);
+            inside += want, outside += !want;
+            // Every hit is where the whole begins or ends.
+            Ray ray = {p, vec_normalize(random_vec(&rng, 1))};
+            double t[16];
+            int count = all_hits(stage.world, &ray, t, 16);
+            for (int k = 0; k < count; k++) {
+                bool before = member(&stage, root, vec_madd(p, t[k] - 1e-7, ray.dir));
+                bool after = member(&stage, root, vec_madd(p, t[k] + 1e-7, ray.dir));
+                assert_true(before != after);
+            }
+        }
+        stage_end(&stage);
+    }
+    print_message("%d points inside, %d outside\n", inside, outside);
+    assert_true(inside > 500 && outside > 500);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_wide),
         cmocka_unit_test(test_hits_are_changes),
         cmocka_unit_test(test_clips_and_inside),
         cmocka_unit_test(test_surfaces_in_trees),

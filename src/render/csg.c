@@ -47,8 +47,17 @@ static Box patch_box(const PatchShape *patch) {
     return widened(box);
 }
 
+// All but what an inverted shape encloses is inside it.
+static Box outside_of(const Shape *shape) {
+    Shape plain = *shape;
+    plain.inverse = false;
+    bool encloses = shape->inverse && shape_has_inside(shape) && shape_inside_bounded(&plain);
+    return encloses ? widened(shape_bounds(shape)) : EVERYWHERE;
+}
+
 static void make_leaf(Maker *maker, CsgNode *node) {
     node->inside = box_empty();
+    node->outside = EVERYWHERE;
     if (node->object->type == OBJECT_PATCH) {
         node->reach = patch_box(&node->object->shape.patch);
         return;
@@ -57,6 +66,7 @@ static void make_leaf(Maker *maker, CsgNode *node) {
     *shape = shape_prepare(maker->scene, node->object, maker->shared, maker->arena);
     node->shape = shape;
     node->solid = shape_has_inside(shape);
+    node->outside = outside_of(shape);
     node->reach = widened(shape_bounds(shape));
     if (node->solid)
         node->inside = shape_inside_bounded(shape) ? node->reach : EVERYWHERE;
@@ -119,12 +129,15 @@ static void narrow(const Maker *maker, CsgNode *node, uint32_t list) {
 static void join_children(Maker *maker, CsgNode *node) {
     bool all = node->object->type == OBJECT_INTERSECTION;
     node->inside = node->reach = all ? EVERYWHERE : box_empty();
+    node->outside = all ? box_empty() : EVERYWHERE;
     for (uint32_t c = node->first; c != NO_INDEX; c = maker->nodes.items[c].next) {
         const CsgNode *child = &maker->nodes.items[c];
         Box whole = box_union(child->reach, child->inside);
         node->reach = all ? box_common(node->reach, whole) : box_union(node->reach, child->reach);
         node->inside =
             all ? box_common(node->inside, child->inside) : box_union(node->inside, child->inside);
+        node->outside = all ? box_union(node->outside, child->outside)
+                            : box_common(node->outside, child->outside);
         node->child_count++;
         node->solid_count += child->solid;
     }
@@ -140,6 +153,7 @@ static void join_children(Maker *maker, CsgNode *node) {
 static void fill_patches(const Maker *maker, CsgNode *node) {
     node->body = patch_solid_create(maker->scene, node->object, maker->patches, maker->arena);
     node->solid = true;
+    node->outside = EVERYWHERE;
     node->inside = node->object->inverse ? EVERYWHERE : widened(patch_solid_bounds(node->body));
 }
 
@@ -161,6 +175,7 @@ static Box clipped_quadric(const Maker *maker, const CsgNode *node) {
 static void apply_clips(const Maker *maker, CsgNode *node) {
     for (uint32_t c = node->first_clip; c != NO_INDEX; c = maker->nodes.items[c].next) {
         const CsgNode *clip = &maker->nodes.items[c];
+        node->outside = EVERYWHERE;
         node->inside = box_common(node->inside, clip->inside);
         node->reach = box_common(node->reach, clip->inside);
         node->solid = node->solid && clip->solid;
@@ -232,6 +247,36 @@ static void hand_down(Csg *csg) {
     }
 }
 
+// From so many children on a tree of boxes pays.
+enum { WIDE = 16 };
+
+static bool is_finite(const Box *box) {
+    return vec_is_finite(box->low) && vec_is_finite(box->high) && box->low.x <= box->high.x &&
+           box->low.y <= box->high.y && box->low.z <= box->high.z;
+}
+
+static CsgWide *make_wide(const Csg *csg, const CsgNode *node, Arena *arena) {
+    Arena *scratch = arena_create();
+    CsgWide *wide = ARENA_NEW(arena, CsgWide);
+    Box *boxes = ARENA_ARRAY(scratch, Box, node->child_count);
+    uint32_t *boxed = ARENA_ARRAY(scratch, uint32_t, node->child_count), count = 0;
+    bool all = node->object->type == OBJECT_INTERSECTION;
+    wide->rest = ARENA_ARRAY(arena, uint32_t, node->child_count);
+    for (uint32_t c = node->first; c != NO_INDEX; c = csg->nodes[c].next) {
+        const Box *box = all ? &csg->nodes[c].outside : &csg->nodes[c].inside;
+        if (is_finite(box))
+            boxes[count] = *box, boxed[count++] = c;
+        else if (all || csg->nodes[c].solid)
+            wide->rest[wide->rest_count++] = c;
+    }
+    wide->tree = bvh_build(boxes, count, arena);
+    wide->nodes = ARENA_ARRAY(arena, uint32_t, count);
+    for (uint32_t i = 0; i < count; i++)
+        wide->nodes[i] = boxed[wide->tree.items[i]];
+    arena_destroy(scratch);
+    return wide;
+}
+
 Csg csg_create(const Scene *scene, const PatchSetOptions *patches, Arena *arena) {
     Maker maker = {.scene = scene,
                    .arena = arena,
@@ -247,6 +292,9 @@ Csg csg_create(const Scene *scene, const PatchSetOptions *patches, Arena *arena)
     csg.nodes = arena_copy(arena, maker.nodes.items, csg.count * sizeof(CsgNode));
     array_free(&maker.nodes);
     hand_down(&csg);
+    for (uint32_t n = 0; n < csg.count; n++)
+        if (csg.nodes[n].child_count > WIDE && csg.nodes[n].solid)
+            csg.nodes[n].wide = make_wide(&csg, &csg.nodes[n], arena);
     return csg;
 }
 
@@ -273,6 +321,19 @@ static bool inside_clips(const Csg *csg, const CsgNode *node, Vec3 p) {
     return true;
 }
 
+// Is p inside all children of a tree, or none, but `own` and those that rays of that kind do not
+// see?
+typedef struct {
+    const Csg *csg;
+    const CsgNode *tree;
+    uint32_t own;
+    Vec3 p;
+    bool inside;
+    uint32_t kind;
+} OthersQuery;
+
+static bool others(const OthersQuery *query);
+
 bool csg_inside_unclipped(const Csg *csg, uint32_t index, Vec3 p) {
     const CsgNode *node = &csg->nodes[index];
     if (node->shape)
@@ -280,10 +341,7 @@ bool csg_inside_unclipped(const Csg *csg, uint32_t index, Vec3 p) {
     if (node->body)
         return patch_solid_inside(node->body, p) != node->object->inverse;
     bool all = node->object->type == OBJECT_INTERSECTION;
-    for (uint32_t c = node->first; c != NO_INDEX; c = csg->nodes[c].next)
-        if (csg_inside(csg, c, p) != all)
-            return !all;
-    return all;
+    return others(&(OthersQuery){csg, node, NO_INDEX, p, all, 0}) == all;
 }
 
 bool csg_inside(const Csg *csg, uint32_t index, Vec3 p) {
@@ -292,25 +350,47 @@ bool csg_inside(const Csg *csg, uint32_t index, Vec3 p) {
            csg_inside_unclipped(csg, index, p);
 }
 
+// Do rays of that kind pass by the object?
+static bool is_hidden(const Object *object, uint32_t kind) {
+    return (object->no_image && (kind & RAY_IMAGE)) ||
+           (object->no_reflection && (kind & RAY_REFLECTION));
+}
+
+static bool differs(const OthersQuery *query, uint32_t child) {
+    const Csg *csg = query->csg;
+    return child != query->own && csg_inside(csg, child, query->p) != query->inside &&
+           !is_hidden(csg->nodes[child].object, query->kind);
+}
+
+static bool differs_at(void *context, uint32_t place) {
+    const OthersQuery *query = context;
+    return differs(query, query->tree->wide->nodes[place]);
+}
+
+static bool others(const OthersQuery *query) {
+    const CsgWide *wide = query->tree->wide;
+    if (!wide) {
+        for (uint32_t c = query->tree->first; c != NO_INDEX; c = query->csg->nodes[c].next)
+            if (differs(query, c))
+                return false;
+        return true;
+    }
+    for (uint32_t i = 0; i < wide->rest_count; i++)
+        if (differs(query, wide->rest[i]))
+            return false;
+    OthersQuery at = *query;
+    return !bvh_walk_point(&wide->tree, query->p, differs_at, &at);
+}
+
 // Is p inside all children but `own`?
 static bool inside_others(const Csg *csg, const CsgNode *tree, uint32_t own, Vec3 p) {
-    for (uint32_t c = tree->first; c != NO_INDEX; c = csg->nodes[c].next)
-        if (c != own && !csg_inside(csg, c, p))
-            return false;
-    return true;
+    return others(&(OthersQuery){csg, tree, own, p, true, 0});
 }
 
 // Is p outside all children but `own`, as far as rays of that kind see them?
 static bool outside_others(const Csg *csg, const CsgNode *tree, uint32_t own, Vec3 p,
                            uint32_t kind) {
-    for (uint32_t c = tree->first; c != NO_INDEX; c = csg->nodes[c].next) {
-        const Object *object = csg->nodes[c].object;
-        bool hidden = (object->no_image && (kind & RAY_IMAGE)) ||
-                      (object->no_reflection && (kind & RAY_REFLECTION));
-        if (c != own && !hidden && csg_inside(csg, c, p))
-            return false;
-    }
-    return true;
+    return others(&(OthersQuery){csg, tree, own, p, false, kind});
 }
 
 bool csg_keeps(const Csg *csg, uint32_t index, Vec3 p, uint32_t kind) {

@@ -10,7 +10,17 @@
 #include "base/arena.h"
 #include "model/scene.h"
 #include "render/patch_solid.h"
+#include "shape/bvh.h"
 #include "shape/shape.h"
+
+// The children of a wide tree by where their answer is not the same as almost everywhere: inside a
+// child of a merge or union, outside of one of an intersection.
+typedef struct {
+    Bvh tree;
+    uint32_t *nodes; // in its leaf order
+    uint32_t *rest;  // children without such a box
+    uint32_t rest_count;
+} CsgWide;
 
 typedef struct {
     const Object *object;
@@ -20,11 +30,13 @@ typedef struct {
     uint32_t next;      // sibling, also in a list of clips
     uint32_t first, first_clip, first_bound;
     uint32_t child_count, solid_count;
-    bool solid;     // some point may be inside
-    Box inside;     // holds all that are
-    Box reach;      // holds the surface as far as the trees around let it be seen
-    uint32_t gate;  // the innermost node with bounds, of it and those around; NO_INDEX: none
-    bool outermost; // it is what POV-Ray has as one object
+    bool solid;          // some point may be inside
+    Box inside;          // holds all that are
+    Box outside;         // holds all that are not
+    Box reach;           // holds the surface as far as the trees around let it be seen
+    uint32_t gate;       // the innermost node with bounds, of it and those around; NO_INDEX: none
+    bool outermost;      // it is what POV-Ray has as one object
+    const CsgWide *wide; // of a tree with many children
 } CsgNode;
 
 typedef struct {

@@ -24,25 +24,31 @@ static inline double clamp(double x, double low, double high) {
 }
 static inline double length1(Vec3 a) { return fabs(a.x) + fabs(a.y) + fabs(a.z); }
 
-// S, Su, Sv of a cubic patch; points as [column][row][x y z]; four numbers are read for each.
+// S, Su, Sv of a cubic patch; points as [column][row][x y z]; four numbers are read for each. Along
+// each parameter two quadrics, whose mean is the cubic and whose difference its slope: half of the
+// weights, and a third less to do than with those of the cubic and of its derivative. Of the
+// rounding that AccelPatch allows less is used: a weight of a quadric carries 3 roundings, its sums
+// 3 more, the means 3; and differences of such sums carry those of both.
 static inline void eval_cubic(const double *p, double u, double v, Vec3 out[3]) {
     double r = 1.0 - u, s = 1.0 - v;
-    double rr = r * r, uu = u * u, ss = s * s, vv = v * v;
-    D4 wu[4] = {d4_all(rr * r), d4_all(3.0 * rr * u), d4_all(3.0 * r * uu), d4_all(uu * u)};
-    D4 du[4] = {d4_all(-3.0 * rr), d4_all(3.0 * r * (r - 2.0 * u)), d4_all(3.0 * u * (2.0 * r - u)),
-                d4_all(3.0 * uu)};
-    double wv[4] = {ss * s, 3.0 * ss * v, 3.0 * s * vv, vv * v};
-    double dv[4] = {-3.0 * ss, 3.0 * s * (s - 2.0 * v), 3.0 * v * (2.0 * s - v), 3.0 * vv};
-    D4 at = d4_all(0.0), along_u = at, along_v = at;
+    D4 wu[3] = {d4_all(r * r), d4_all(2.0 * r * u), d4_all(u * u)};
+    D4 wv[3] = {d4_all(s * s), d4_all(2.0 * s * v), d4_all(v * v)};
+    D4 low[4], high[4]; // the quadrics along u, of each column
+#pragma GCC unroll 4
     for (int j = 0; j < 4; j++) {
         D4 p0 = d4_load(p + 12 * j), p1 = d4_load(p + 12 * j + 3), p2 = d4_load(p + 12 * j + 6),
            p3 = d4_load(p + 12 * j + 9);
-        D4 row = (wu[0] * p0 + wu[1] * p1) + (wu[2] * p2 + wu[3] * p3);
-        D4 slope = (du[0] * p0 + du[1] * p1) + (du[2] * p2 + du[3] * p3);
-        at += d4_all(wv[j]) * row;
-        along_v += d4_all(dv[j]) * row;
-        along_u += d4_all(wv[j]) * slope;
+        low[j] = wu[0] * p0 + wu[1] * p1 + wu[2] * p2;
+        high[j] = wu[0] * p1 + wu[1] * p2 + wu[2] * p3;
     }
+    D4 ll = wv[0] * low[0] + wv[1] * low[1] + wv[2] * low[2];
+    D4 lh = wv[0] * low[1] + wv[1] * low[2] + wv[2] * low[3];
+    D4 hl = wv[0] * high[0] + wv[1] * high[1] + wv[2] * high[2];
+    D4 hh = wv[0] * high[1] + wv[1] * high[2] + wv[2] * high[3];
+    D4 bu = d4_all(u), br = d4_all(r), bv = d4_all(v), bs = d4_all(s), three = d4_all(3.0);
+    D4 near = bs * ll + bv * lh, far = bs * hl + bv * hh; // at the ends of u
+    D4 at = br * near + bu * far, along_u = three * (far - near);
+    D4 along_v = three * (br * (lh - ll) + bu * (hh - hl));
     out[0] = vec3(at[0], at[1], at[2]);
     out[1] = vec3(along_u[0], along_u[1], along_u[2]);
     out[2] = vec3(along_v[0], along_v[1], along_v[2]);
@@ -101,6 +107,9 @@ static inline Newton newton_sharpen(Walk *walk, const Piece *piece, BezierRect r
                 return NEWTON_LOST;
             continue;
         }
+        const double t = ray->t_base + depth * ray->t_per_s;
+        if (!walk_in_range(walk, t))
+            return NEWTON_TAKEN;
         // What is left of the turn is seen in mirrors whose pictures lie a thousand units away.
         if (query->kind != QUERY_ANY && turn > NEWTON_NORMAL_TURN * area) {
             eval_patch(ray->patch, clamp(u, 0.0, 1.0), clamp(v, 0.0, 1.0), s);
@@ -109,14 +118,12 @@ static inline Newton newton_sharpen(Walk *walk, const Piece *piece, BezierRect r
             if (!(area > 0.0))
                 return NEWTON_LOST;
         }
-        Root root = {.hit = {.t = ray->t_base + depth * ray->t_per_s,
+        Root root = {.hit = {.t = t,
                              .u = u,
                              .v = v,
                              .normal = vec_scale(n, 1.0 / area),
                              .bound = distance,
                              .id = ray->patch->id}};
-        if (!walk_in_range(walk, root.hit.t))
-            return NEWTON_TAKEN;
         if (query->kind == QUERY_ALL)
             root_set_errors(&root, m1, m2, det);
         return walk_take(walk, &root) ? NEWTON_TAKEN : NEWTON_STOP;

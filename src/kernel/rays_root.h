@@ -78,29 +78,27 @@ static inline void rays_guess(const Piece *piece, const RaysLocal *local, int i,
 // S, Su, Sv, as eval_cubic.
 static inline void rays_eval(const double *points, WD u, WD v, Wide3 out[3]) {
     WD r = 1.0 - u, s = 1.0 - v;
-    WD rr = r * r, uu = u * u, ss = s * s, vv = v * v;
-    WD wu[4] = {rr * r, 3.0 * rr * u, 3.0 * r * uu, uu * u};
-    WD du[4] = {-3.0 * rr, 3.0 * r * (r - 2.0 * u), 3.0 * u * (2.0 * r - u), 3.0 * uu};
-    WD wv[4] = {ss * s, 3.0 * ss * v, 3.0 * s * vv, vv * v};
-    WD dv[4] = {-3.0 * ss, 3.0 * s * (s - 2.0 * v), 3.0 * v * (2.0 * s - v), 3.0 * vv};
+    WD wu[3] = {r * r, 2.0 * r * u, u * u}, wv[3] = {s * s, 2.0 * s * v, v * v};
     WD *sums[3] = {&out[0].x, &out[0].y, &out[0].z};
     WD *sums_u[3] = {&out[1].x, &out[1].y, &out[1].z};
     WD *sums_v[3] = {&out[2].x, &out[2].y, &out[2].z};
 #pragma GCC unroll 3
     for (int k = 0; k < 3; k++) {
-        WD at = wd_all(0.0), along_u = at, along_v = at;
+        WD low[4], high[4];
 #pragma GCC unroll 4
         for (int j = 0; j < 4; j++) {
             const double *p = points + 12 * j + k;
-            WD row = (wu[0] * p[0] + wu[1] * p[3]) + (wu[2] * p[6] + wu[3] * p[9]);
-            WD slope = (du[0] * p[0] + du[1] * p[3]) + (du[2] * p[6] + du[3] * p[9]);
-            at += wv[j] * row;
-            along_v += dv[j] * row;
-            along_u += wv[j] * slope;
+            low[j] = wu[0] * p[0] + wu[1] * p[3] + wu[2] * p[6];
+            high[j] = wu[0] * p[3] + wu[1] * p[6] + wu[2] * p[9];
         }
-        *sums[k] = at;
-        *sums_u[k] = along_u;
-        *sums_v[k] = along_v;
+        WD ll = wv[0] * low[0] + wv[1] * low[1] + wv[2] * low[2];
+        WD lh = wv[0] * low[1] + wv[1] * low[2] + wv[2] * low[3];
+        WD hl = wv[0] * high[0] + wv[1] * high[1] + wv[2] * high[2];
+        WD hh = wv[0] * high[1] + wv[1] * high[2] + wv[2] * high[3];
+        WD near = s * ll + v * lh, far = s * hl + v * hh;
+        *sums[k] = r * near + u * far;
+        *sums_u[k] = 3.0 * (far - near);
+        *sums_v[k] = 3.0 * (r * (lh - ll) + u * (hh - hl));
     }
 }
 
@@ -123,6 +121,12 @@ typedef struct {
     WD t, u, v, bound;
     Wide3 normal;
 } RaysHit;
+
+// As walk_in_range, but for what only equals hits: rays_take chooses of those.
+static inline unsigned rays_in_range(const RayPacket *p, int i, WD t) {
+    WD order = p->kind == QUERY_NEAREST ? wd_max(t, wd_load(p->t_least + i)) : t;
+    return wd_le(wd_load(p->t_min + i), t) & wd_le(order, wd_load(p->t_max + i));
+}
 
 // As walk_take, for the rays i + bits.
 static inline void rays_take(RayPacket *p, int i, unsigned bits, const RaysHit *hit, uint32_t patch,
@@ -217,6 +221,9 @@ static inline unsigned rays_sharpen(RayPacket *p, int i, unsigned bits, uint32_t
         if (!good)
             continue;
         bits &= ~good;
+        // Of the others it is known what they are worth.
+        WD t = rays.t_base + depth * rays.t_per_s;
+        good &= rays_in_range(p, i, t);
         unsigned turns = p->kind == QUERY_ANY ? 0 : good & wd_lt(NEWTON_NORMAL_TURN * area, turn);
         if (turns) {
             rays_eval(patch->own, wd_clamp(u, wd_all(0.0), wd_all(1.0)),
@@ -229,8 +236,7 @@ static inline unsigned rays_sharpen(RayPacket *p, int i, unsigned bits, uint32_t
             lost |= none;
             good &= ~none;
         }
-        RaysHit hit = {rays.t_base + depth * rays.t_per_s, u, v, distance,
-                       wide3_scale(n, 1.0 / area)};
+        RaysHit hit = {t, u, v, distance, wide3_scale(n, 1.0 / area)};
         rays_take(p, i, good, &hit, piece->patch, number);
     }
     return lost | bits;

@@ -15,6 +15,10 @@ static const double NEWTON_NORMAL_ERROR = 1e-6;
 // Below it the normal is taken from where the last step begins: rounding is not far.
 static const double NEWTON_NORMAL_TURN = 1e-12;
 
+// How far from its border a patch may be hit, in its radius: neighbours whose points were computed
+// apart (by numerical derivatives, say) share an edge but for some thousand roundings.
+#define NEWTON_BORDER 0x1p-38
+
 typedef enum { NEWTON_LOST, NEWTON_TAKEN, NEWTON_STOP } Newton;
 
 static inline double larger(double a, double b) { return a > b ? a : b; }
@@ -71,9 +75,10 @@ static inline Newton newton_sharpen(Walk *walk, const Piece *piece, BezierRect r
     const double u0 = larger(rect.u0 - hair_u, 0.0), u1 = smaller(rect.u1 + hair_u, 1.0);
     const double v0 = larger(rect.v0 - hair_v, 0.0), v1 = smaller(rect.v1 + hair_v, 1.0);
     const double muu = (double)piece->muu, muv = (double)piece->muv, mvv = (double)piece->mvv;
-    // What rounding leaves is as good as can be had. On the patch's own border nothing more is
-    // allowed: else a patch would be wider than it is by its tolerance.
+    // What rounding leaves is as good as can be had.
     const double least = 2.0 * ray->error, tolerance = larger(ray->patch->tolerance, least);
+    // On the patch's own border: else a patch would be wider than it is by its tolerance.
+    const double beside = larger(smaller(tolerance, NEWTON_BORDER * ray->patch->radius), least);
     for (int step = 0; step < NEWTON_STEPS; step++) {
         query->stats.newton++;
         Vec3 s[3];
@@ -90,7 +95,7 @@ static inline Newton newton_sharpen(Walk *walk, const Piece *piece, BezierRect r
         u = clamp(u + a, u0, u1);
         v = clamp(v + b, v0, v1);
         const bool border = u <= 0.0 || u >= 1.0 || v <= 0.0 || v >= 1.0;
-        const double limit = border ? least : tolerance;
+        const double limit = border ? beside : tolerance;
         if (!(rest <= limit))
             continue;
         Vec3 off = vec_sub(vec_sub(r, vec_scale(su, a)), vec_scale(sv, b));

@@ -186,6 +186,7 @@ static inline unsigned rays_sharpen(RayPacket *p, int i, unsigned bits, uint32_t
              v1 = wd_all(smaller(rect.v1 + hair_v, 1.0));
     const double muu = (double)piece->muu, muv = (double)piece->muv, mvv = (double)piece->mvv;
     const WD least = 2.0 * error, tolerance = wd_max(wd_all(patch->tolerance), least);
+    const WD beside = wd_max(wd_min(tolerance, wd_all(NEWTON_BORDER * patch->radius)), least);
     const WD zero = wd_all(0.0), one = wd_all(1.0);
     unsigned lost = 0;
     for (int step = 0; step < NEWTON_STEPS && bits; step++) {
@@ -205,7 +206,7 @@ static inline unsigned rays_sharpen(RayPacket *p, int i, unsigned bits, uint32_t
         u = wd_clamp(u + a, u0, u1);
         v = wd_clamp(v + b, v0, v1);
         unsigned border = wd_le(u, zero) | wd_le(one, u) | wd_le(v, zero) | wd_le(one, v);
-        WD limit = wd_pick(border, least, tolerance);
+        WD limit = wd_pick(border, beside, tolerance);
         unsigned ends = bits & wd_le(rest, limit);
         if (!ends)
             continue;

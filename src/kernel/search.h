@@ -190,10 +190,10 @@ static inline BezierRect rect_union(BezierRect a, BezierRect b) {
 }
 
 // Finds every crossing in rect, a part of the piece's rectangle, and gives it to walk_take; false
-// to end the walk. Crossings outside the patch by what rounding can do are taken too, with (u,v) on
-// the patch's edge; crossings on the edge of rect may be found by the neighbour as well. What
-// does not shrink is cut in half, which is cheaper than to ask qi; but of all crossings qi tells
-// those apart that are close to each other.
+// to end the walk. Crossings outside the patch by little more than rounding are taken too, with
+// (u,v) on the patch's edge; crossings on the edge of rect may be found by the neighbour as well.
+// What does not shrink is cut in half, which is cheaper than to ask qi; but of all crossings qi
+// tells those apart that are close to each other.
 static bool search_rect(Walk *walk, const Piece *piece, BezierRect rect) {
     const bool cuts = walk->query->kind != QUERY_ALL;
     struct {

@@ -4,7 +4,7 @@
 #   make test    install what is missing, build, run all tests (AddressSanitizer, UBSan)
 #   make test-examples  read every scene that POV-Ray's distribution has, as POV-Ray does
 #   make install  to PREFIX (/usr/local), below DESTDIR
-#   make report   what accuracy costs: curves, tables and maps as a page (minutes); make study, accuracy
+#   make report   what accuracy costs: curves, tables and maps as a page (5 minutes); make study, accuracy
 #   make gallery the pictures of README; make bench its table of speed; make deps lint clean
 MAKEFLAGS += --no-builtin-rules
 .DELETE_ON_ERROR:
@@ -272,14 +272,17 @@ bench: deps
 # The trade of speed against accuracy: a page in build/report, and whether errors fall with tolerances.
 # The scenes that are there are measured. study: README's section on how wrong POV-Ray is. accuracy:
 # is `pixel` `exact` to the eye, on all scenes in reach?
-REPORT_SCENES = /usr/share/doc/povray/examples/advanced/teapot/teapot.pov scenes/shells/shells.pov \
-    scenes/dunes/dunes.pov $(wildcard ../shared/corpus/postit/postit.pov ../shared/corpus/fmunoz/fruit_only.pov)
+REPORT_SCENES = /usr/share/doc/povray/examples/advanced/teapot/teapot.pov scenes/dunes/dunes.pov \
+    $(wildcard ../shared/corpus/postit/postit.pov ../shared/corpus/fmunoz/fruit_only.pov)
 REPORT_ROUNDS ?= 3
+REPORT_SIZE ?= 200x150
+REPORT_PATIENCE ?= 3
 report: deps
 	@tests/deps.sh $(REPORT_PACKAGES)
 	@$(MAKE) --no-print-directory -j$$(nproc) all
 	@mkdir -p build
-	@build/qibench sweep --rounds $(REPORT_ROUNDS) --html build/report $(REPORT_SCENES)
+	@build/qibench sweep --rounds $(REPORT_ROUNDS) --size $(REPORT_SIZE) --patience $(REPORT_PATIENCE) \
+	    --html build/report $(REPORT_SCENES)
 	@tests/sweep_check.sh build/report/sweep.csv && echo build/report/index.html
 study: deps
 	@$(MAKE) --no-print-directory -j$$(nproc) all

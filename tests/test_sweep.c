@@ -210,6 +210,47 @@ static void page_shows_the_figures(void **state) {
     arena_destroy(arena);
 }
 
+// Stopped in its second scene: the files of the first are whole, what is missing is named, and no
+// process goes on.
+static void interruption_leaves_whole_files(void **state) {
+    need_rows();
+    (void)state;
+    char path[4400];
+    snprintf(path, sizeof path, "%s/plain.pov", scratch_folder());
+    FILE *f = fopen(path, "w");
+    assert_non_null(f);
+    fputs("camera { location -4*z } light_source { -9*z, 1 } bicubic_patch { type 1\n", f);
+    for (int i = 0; i < 16; i++)
+        fprintf(f, "<%g, %g, %g>\n", i / 4 / 1.5 - 1.0, i % 4 / 1.5 - 1.0, i == 5 ? -1.0 : 0.0);
+    fputs("pigment { rgb 1 } }\n", f);
+    fclose(f);
+    const char *log;
+    int status = run_command(
+        &log,
+        "cp '%s' '%s/other.pov'; build/qibench sweep '%s' '%s/other.pov' --size 8x8 --rounds 1 "
+        "--povray off --html '%s/stopped' & pid=$!; for i in $(seq 1200); do [ -e "
+        "'%s/stopped/index.html' ] && break; sleep 0.05; done; sleep 0.5; kill -INT $pid; wait "
+        "$pid; status=$?; pgrep -f '^build/qibench sweep %s' && exit 99; exit $status",
+        path, scratch_folder(), path, scratch_folder(), scratch_folder(), scratch_folder(), path);
+    if (status != 2)
+        fail_msg("status %d: %s", status, log);
+    const char *said = strstr(log, "qibench: interrupted; not measured: ");
+    assert_non_null(said);
+    assert_non_null(strstr(said, "/other.pov; "));
+    assert_null(strstr(said, "/plain.pov"));
+    Arena *arena = arena_create();
+    static const char *const files[] = {"index.html", "sweep.csv", "sweep.json"};
+    static const char *const ends[] = {"</html>\n", "\n", "}\n"};
+    for (int i = 0; i < 3; i++) {
+        snprintf(path, sizeof path, "%s/stopped/%s", scratch_folder(), files[i]);
+        const char *text = file_read(arena, path, NULL, NULL);
+        assert_non_null(text);
+        assert_non_null(strstr(text, "plain.pov"));
+        assert_string_equal(text + strlen(text) - strlen(ends[i]), ends[i]);
+    }
+    arena_destroy(arena);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(errors_fall),
@@ -217,6 +258,7 @@ int main(void) {
         cmocka_unit_test(triangles_leak),
         cmocka_unit_test(povray_points_are_right),
         cmocka_unit_test(page_shows_the_figures),
+        cmocka_unit_test(interruption_leaves_whole_files),
     };
     return cmocka_run_group_tests(tests, sweep_once, NULL);
 }

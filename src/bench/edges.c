@@ -35,9 +35,7 @@ static void place_on(int side, double at, double *u, double *v) {
 
 static void add_edges(const PatchShape *patch, EdgeList *list) {
     int du = (int)patch->degree_u, dv = (int)patch->degree_v;
-    Box box = box_empty();
-    for (int k = 0; k < (du + 1) * (dv + 1); k++)
-        box = box_extend(box, patch->points[k]);
+    const Box box = patch_shape_box(patch);
     double diameter = vec_length(vec_sub(box.high, box.low));
     for (int side = 0; side < SIDES; side++) {
         Edge edge = {.patch = patch, .side = side, .diameter = diameter};

@@ -5,10 +5,10 @@
 #include "base/diag.h"
 #include "base/progress.h"
 #include "bench/sweep_child.h"
+#include "bench/sweep_judge.h"
 #include "bench/sweep_povray.h"
 #include "patch/embree.h"
 #include "converter/convert.h"
-#include "render/footprint.h"
 #include "report/run.h"
 
 #include <math.h>
@@ -41,6 +41,9 @@ const char *sweep_point_name(const SweepPoint *p, Arena *arena) {
 typedef struct {
     SweepPoint point;
     const char *failed;
+    bool spent; // no more rounds: what it may take is used up
+    int rounds;
+    double used; // seconds
     double prepare[SWEEP_MOST_ROUNDS], trace[SWEEP_MOST_ROUNDS], picture[SWEEP_MOST_ROUNDS];
     double megabytes;
 } Measured;
@@ -96,124 +99,7 @@ static Spread spread_of(const double *values, int count) {
     return (Spread){sorted[count / 2], sorted[0], sorted[count - 1]};
 }
 
-// ---- Errors
-
-typedef struct {
-    const SweepOptions *options;
-    const SweepShared *truth;
-    Footprint footprint;
-    double *diameter; // of each object's patch, 0: no patch
-    Image *truth_picture;
-    EdgeRays edges;
-} Judge;
-
-static double *find_diameters(const Scene *scene, Arena *arena) {
-    double *diameter = ARENA_ARRAY(arena, double, scene->object_count);
-    for (uint32_t i = 0; i < scene->object_count; i++) {
-        const PatchShape *patch = &scene->objects[i].shape.patch;
-        if (scene->objects[i].type != OBJECT_PATCH)
-            continue;
-        Box box = box_empty();
-        for (uint32_t k = 0; k < (patch->degree_u + 1) * (patch->degree_v + 1); k++)
-            box = box_extend(box, patch->points[k]);
-        diameter[i] = vec_length(vec_sub(box.high, box.low));
-    }
-    return diameter;
-}
-
-static Image *picture_of(const SweepShared *shared, const SweepOptions *o, Arena *arena) {
-    Image *image = ARENA_NEW(arena, Image);
-    *image = (Image){.width = o->width, .height = o->height, .channels = 3, .bits = 16};
-    size_t count = 3 * (size_t)o->width * (size_t)o->height;
-    image->pixels = arena_copy(arena, shared->pixels, count * sizeof(float));
-    return image;
-}
-
-static void judge_picture(const Judge *judge, const Image *picture, SweepResult *r) {
-    const ImageDifference d = image_compare(judge->truth_picture, picture, 1.0, 1.0);
-    r->rms = 255.0 * d.rms;
-    r->psnr = d.psnr;
-    r->off = (double)d.different / (double)d.pixels;
-}
-
-// How far apart two hits on one ray are across the surface, and the angle of their normals.
-static double distance_of(const SweepLook *truth, const SweepLook *look) {
-    return fabs(look->t - truth->t) * fabs(vec_dot(truth->dir, truth->normal));
-}
-
-static double angle_of(const SweepLook *truth, const SweepLook *look) {
-    Vec3 across = vec_cross(truth->normal, look->normal);
-    return atan2(vec_length(across), vec_dot(truth->normal, look->normal)) * 180.0 / M_PI;
-}
-
-// The truth around a pixel is one surface without a step, and the ray went far through it.
-static bool is_hole(const Judge *judge, const SweepShared *shared, size_t at) {
-    const SweepLook *truth = &judge->truth->looks[at];
-    double diameter = truth->object != NO_INDEX ? judge->diameter[truth->object] : 0.0;
-    double step = 0.1 * diameter;
-    if (!(diameter > 0.0) || !(shared->looks[at].t > truth->t + step))
-        return false;
-    for (int y = -1; y <= 1; y++)
-        for (int x = -1; x <= 1; x++) {
-            const SweepLook *near = truth + (ptrdiff_t)y * judge->options->width + x;
-            if (near->object == NO_INDEX || !(judge->diameter[near->object] > 0.0) ||
-                !(fabs(near->t - truth->t) < step))
-                return false;
-        }
-    return true;
-}
-
-static int count_holes(const Judge *judge, const SweepShared *shared) {
-    int holes = 0;
-    size_t width = (size_t)judge->options->width, height = (size_t)judge->options->height;
-    for (size_t y = 1; y + 1 < height; y++)
-        for (size_t x = 1; x + 1 < width; x++)
-            holes += is_hole(judge, shared, y * width + x);
-    return holes;
-}
-
-// t and the coordinates of both rays' starts are rounded to half a unit in the last place each, and
-// added up in both hits: four units of the largest of them. In diameters of the patch.
-static double rounding_of(const Judge *judge, const SweepLook *truth) {
-    Vec3 eye = judge->footprint.eye;
-    double most = fmax(truth->t, fmax(fabs(eye.x), fmax(fabs(eye.y), fabs(eye.z))));
-    return 4.0 * 0x1p-52 * most / judge->diameter[truth->object];
-}
-
-static void judge_hits(const Judge *judge, const SweepShared *shared, SweepResult *r) {
-    size_t pixels = (size_t)judge->options->width * (size_t)judge->options->height, both = 0;
-    size_t wrong = 0, patches = 0;
-    double squares = 0.0, angle_squares = 0.0;
-    for (size_t i = 0; i < pixels; i++) {
-        const SweepLook *truth = &judge->truth->looks[i], *look = &shared->looks[i];
-        bool on_patch = truth->object != NO_INDEX && judge->diameter[truth->object] > 0.0;
-        bool now = look->object != NO_INDEX && judge->diameter[look->object] > 0.0;
-        patches += on_patch || now;
-        if (truth->object != look->object) {
-            wrong += on_patch || now;
-            continue;
-        }
-        if (!on_patch)
-            continue;
-        double distance = distance_of(truth, look), angle = angle_of(truth, look);
-        double share = distance / judge->diameter[truth->object];
-        double pixel = fmax(judge->footprint.angle * truth->t, judge->footprint.width);
-        r->position_max = fmax(r->position_max, share);
-        r->rounding = fmax(r->rounding, rounding_of(judge, truth));
-        r->position_pixels = fmax(r->position_pixels, distance / pixel);
-        r->normal_max = fmax(r->normal_max, angle);
-        squares += share * share;
-        angle_squares += angle * angle;
-        both++;
-    }
-    if (both > 0) {
-        r->position_rms = sqrt(squares / (double)both);
-        r->normal_rms = sqrt(angle_squares / (double)both);
-    }
-    r->holes = count_holes(judge, shared);
-    r->leaks = judge->edges.count > 0 ? (double)shared->leaks / (double)judge->edges.count : 0.0;
-    r->wrong = patches > 0 ? (double)wrong / (double)patches : 0.0;
-}
+// ---- The front
 
 // A point lies on the front when no other is at least as good in both and better in one.
 static void find_front(Sweep *sweep) {
@@ -231,34 +117,6 @@ static void find_front(Sweep *sweep) {
     }
 }
 
-// ---- Maps
-
-static Image *new_map(const SweepOptions *o, Arena *arena) {
-    Image *map = ARENA_NEW(arena, Image);
-    *map = (Image){.width = o->width, .height = o->height, .channels = 1, .bits = 32};
-    map->pixels = ARENA_ARRAY(arena, float, (size_t)o->width *(size_t)o->height);
-    return map;
-}
-
-static void make_maps(const Judge *judge, const SweepShared *facets, Sweep *sweep, Arena *arena) {
-    const SweepOptions *o = judge->options;
-    sweep->distance = new_map(o, arena);
-    sweep->angle = new_map(o, arena);
-    sweep->steps = new_map(o, arena);
-    sweep->leaves = new_map(o, arena);
-    for (size_t i = 0; i < (size_t)o->width * (size_t)o->height; i++) {
-        const SweepLook *truth = &judge->truth->looks[i], *look = &facets->looks[i];
-        sweep->steps->pixels[i] = (float)(truth->steps + truth->newton);
-        sweep->leaves->pixels[i] = (float)truth->leaves;
-        if (truth->object == NO_INDEX || truth->object != look->object ||
-            !(judge->diameter[truth->object] > 0.0))
-            continue;
-        double pixel = fmax(judge->footprint.angle * truth->t, judge->footprint.width);
-        sweep->distance->pixels[i] = (float)(distance_of(truth, look) / pixel);
-        sweep->angle->pixels[i] = (float)angle_of(truth, look);
-    }
-}
-
 // ---- The sweep
 
 static Scene *read_scene(const SweepOptions *o, Arena *arena) {
@@ -271,37 +129,77 @@ static Scene *read_scene(const SweepOptions *o, Arena *arena) {
     return convert_scene(&options, arena);
 }
 
+static const char TOO_SLOW[] = "too slow", TOO_LARGE[] = "too large", GIVEN_UP[] = "given up: ";
+
+// Points of one curve, the later the finer.
+static bool same_curve(const SweepPoint *a, const SweepPoint *b) {
+    return a->povray == b->povray && a->method == b->method && a->prepare == b->prepare &&
+           (a->steps < 0) == (b->steps < 0) && (a->flatness > 0.0) == (b->flatness > 0.0);
+}
+
+// Why a point need not be tried: one of its curve that asks less was too much. NULL: try it.
+static const char *give_up(const MeasuredList *list, size_t i, Arena *arena) {
+    const Measured *before = i > 0 ? &list->items[i - 1] : NULL;
+    if (!before || !before->failed || !same_curve(&before->point, &list->items[i].point))
+        return NULL;
+    if (strncmp(before->failed, GIVEN_UP, sizeof GIVEN_UP - 1) == 0)
+        return before->failed;
+    if (strcmp(before->failed, TOO_SLOW) != 0 && strcmp(before->failed, TOO_LARGE) != 0)
+        return NULL;
+    return arena_printf(arena, "%s%s was %s", GIVEN_UP, sweep_point_name(&before->point, arena),
+                        before->failed);
+}
+
+// Measures a point once. The picture of POV-Ray is read, that of ours is in shared. NULL: done.
+static const char *measure_point(const Judge *judge, Scene *scene, Measured *m, int round,
+                                 const SweepCopy *copy, SweepShared *shared, Image **picture,
+                                 Arena *scratch) {
+    const SweepOptions *o = judge->options;
+    if (m->point.povray) {
+        SweepPovray run = {0};
+        const char *why = sweep_povray(o, copy, m->point.steps, &run, picture, scratch);
+        m->picture[round] = run.seconds;
+        m->megabytes = run.megabytes;
+        shared->used = run.used;
+        return why;
+    }
+    const char *why = sweep_measure(scene, o, &m->point, round ? NULL : &judge->edges, shared);
+    m->prepare[round] = shared->prepare;
+    m->trace[round] = shared->trace;
+    m->picture[round] = shared->picture;
+    m->megabytes = shared->megabytes;
+    return why;
+}
+
 static void measure_round(const Judge *judge, Scene *scene, MeasuredList *list, int round,
                           const SweepCopy *copy, SweepShared *shared, Progress *progress,
-                          Sweep *sweep) {
+                          Sweep *sweep, Arena *arena) {
     const SweepOptions *o = judge->options;
     Arena *scratch = arena_create();
     for (size_t i = 0; i < list->count; i++, progress_add(progress, 1)) {
         Measured *m = &list->items[i];
         SweepResult *r = &sweep->results[i];
-        if (m->failed || run_interrupted)
+        if (m->failed || m->spent || run_interrupted)
+            continue;
+        if (round == 0)
+            m->failed = m->point.povray && !copy ? sweep->no_povray : give_up(list, i, arena);
+        if (m->failed)
             continue;
         Image *picture = NULL;
-        if (m->point.povray) {
-            SweepPovray run = {0};
-            m->failed = copy ? sweep_povray(o, copy, m->point.steps, &run, &picture, scratch)
-                             : sweep->no_povray;
-            m->picture[round] = run.seconds;
-            m->megabytes = run.megabytes;
-        } else {
-            m->failed = sweep_measure(scene, o, &m->point, round ? NULL : &judge->edges, shared);
-            m->prepare[round] = shared->prepare;
-            m->trace[round] = shared->trace;
-            m->picture[round] = shared->picture;
-            m->megabytes = shared->megabytes;
-        }
-        if (m->failed || round > 0 || run_interrupted)
+        const char *why = measure_point(judge, scene, m, round, copy, shared, &picture, scratch);
+        if (why && round == 0)
+            m->failed = why;
+        m->used += shared->used;
+        m->spent = why || m->used + shared->used > o->patience;
+        if (!why)
+            m->rounds = round + 1;
+        if (why || round > 0 || run_interrupted)
             continue;
         if (!m->point.povray) {
-            picture = picture_of(shared, o, scratch);
+            picture = judge_image(shared, o, scratch);
             judge_hits(judge, shared, r);
         }
-        judge_picture(judge, picture, r);
+        judge_picture(judge, m->point.povray ? NULL : shared, picture, r);
     }
     arena_destroy(scratch);
 }
@@ -312,9 +210,12 @@ static void summarize(const MeasuredList *list, const SweepOptions *o, Sweep *sw
         SweepResult *r = &sweep->results[i];
         r->point = m->point;
         r->failed = m->failed;
-        r->prepare = spread_of(m->prepare, o->rounds);
-        r->trace = spread_of(m->trace, o->rounds);
-        r->picture = spread_of(m->picture, o->rounds);
+        r->rounds = m->rounds;
+        if (m->rounds == 0)
+            continue;
+        r->prepare = spread_of(m->prepare, m->rounds);
+        r->trace = spread_of(m->trace, m->rounds);
+        r->picture = spread_of(m->picture, m->rounds);
         r->megabytes = m->megabytes;
         if (r->trace.median > 0.0)
             r->rays_per_second = (double)o->width * o->height / r->trace.median;
@@ -330,6 +231,7 @@ Sweep *sweep_run(const SweepOptions *o, Arena *arena) {
     sweep->width = o->width;
     sweep->height = o->height;
     sweep->rounds = o->rounds;
+    sweep->patience = o->patience;
     for (uint32_t i = 0; i < scene->object_count; i++)
         sweep->patches += scene->objects[i].type == OBJECT_PATCH;
 
@@ -349,14 +251,14 @@ Sweep *sweep_run(const SweepOptions *o, Arena *arena) {
     Judge judge = {.options = o,
                    .truth = truth,
                    .footprint = footprint_create(&view, 1.0),
-                   .diameter = find_diameters(scene, arena),
-                   .truth_picture = picture_of(truth, o, arena),
+                   .diameter = judge_diameters(scene, arena),
+                   .truth_picture = judge_image(truth, o, arena),
                    .edges = edges_find(scene, EDGE_RAYS, arena)};
     sweep->edges = judge.edges.edges;
     sweep->edge_rays = judge.edges.count;
     sweep->picture = judge.truth_picture;
     if (!sweep_measure(scene, o, &facets, NULL, shared))
-        make_maps(&judge, shared, sweep, arena);
+        judge_maps(&judge, shared, sweep, arena);
 
     MeasuredList list = choose_points(o);
     sweep->count = list.count;
@@ -369,7 +271,7 @@ Sweep *sweep_run(const SweepOptions *o, Arena *arena) {
     Progress progress = progress_begin("measuring", (uint64_t)o->rounds * list.count, true);
     for (int round = 0; round < o->rounds; round++)
         measure_round(&judge, scene, &list, round, o->povray && !sweep->no_povray ? &copy : NULL,
-                      shared, &progress, sweep);
+                      shared, &progress, sweep, arena);
     progress_end(&progress);
     if (o->povray && !sweep->no_povray)
         sweep_povray_end(&copy);

@@ -21,9 +21,11 @@ typedef struct {
     const char **library_paths; // for its includes, the scene's folder not among them
     size_t library_path_count;
     int width, height;
-    int rounds;      // odd
-    double patience; // seconds of processor time after which a point is given up
-    bool povray;     // run it too
+    int rounds; // odd
+    // Seconds of processor time that a point may take: one that takes longer is given up, and so
+    // are those of its curve that are finer; one that has taken them after some rounds has no more.
+    double patience;
+    bool povray; // run it too
 } SweepOptions;
 
 SweepOptions sweep_options_default(void); // no scene; 320 x 240, 3 rounds, 60 s
@@ -45,6 +47,7 @@ typedef struct {
 typedef struct {
     SweepPoint point;
     const char *failed;     // why there is nothing more; NULL: there is
+    int rounds;             // that were measured
     Spread prepare, trace;  // seconds: patches and tree; one ray a pixel. Not of POV-Ray
     Spread picture;         // seconds: all of the picture, of POV-Ray without reading the scene
     double rays_per_second; // of trace
@@ -60,12 +63,16 @@ typedef struct {
     // Of the picture.
     double rms, psnr; // steps of 8 bits; dB
     double off;       // share of pixels off by more than a step
-    bool front;       // nothing is both faster to its picture and nearer to the truth
+    double rms_same;  // rms over pixels whose rays meet the same object; not of POV-Ray
+    double worst;     // the largest difference, steps, and where
+    int worst_x, worst_y;
+    bool front; // nothing is both faster to its picture and nearer to the truth
 } SweepResult;
 
 typedef struct {
     const char *scene;
     int width, height, rounds;
+    double patience;
     uint32_t patches;
     size_t edges, edge_rays; // shared smooth edges, rays through them (edges.h)
     SweepResult *results;

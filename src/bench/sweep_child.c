@@ -5,6 +5,7 @@
 #include "bench/tracers.h"
 #include "render/camera.h"
 #include "render/render.h"
+#include "report/run.h"
 
 #include <errno.h>
 #include <math.h>
@@ -185,6 +186,10 @@ static void set_steps(Scene *scene, const SweepPoint *point) {
     }
 }
 
+static double seconds_of(const struct timeval *time) {
+    return (double)time->tv_sec + 1e-6 * (double)time->tv_usec;
+}
+
 const char *sweep_measure(Scene *scene, const SweepOptions *o, const SweepPoint *point,
                           const EdgeRays *edges, SweepShared *shared) {
     set_steps(scene, point);
@@ -196,9 +201,13 @@ const char *sweep_measure(Scene *scene, const SweepOptions *o, const SweepPoint 
     if (child == 0)
         be_child(scene, o, point, edges, shared);
     int status;
-    while (waitpid(child, &status, 0) < 0)
+    struct rusage use;
+    run_end_with_us(child);
+    while (wait4(child, &status, 0, &use) < 0)
         if (errno != EINTR)
             die("cannot wait for a process: %s", strerror(errno));
+    run_end_with_us(0);
+    shared->used = seconds_of(&use.ru_utime) + seconds_of(&use.ru_stime);
     if (WIFSIGNALED(status) && (WTERMSIG(status) == SIGXCPU || WTERMSIG(status) == SIGKILL))
         return "too slow";
     return shared->done ? NULL : "ended with an error";

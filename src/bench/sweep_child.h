@@ -22,6 +22,7 @@ typedef struct {
 // Memory that parent and child share: a header, then looks and pixels.
 typedef struct {
     bool done;
+    double used;                    // seconds of processor time, all of the process
     double prepare, trace, picture; // seconds
     double megabytes;
     size_t leaks;     // of the rays through edges

@@ -192,7 +192,8 @@ static void put_table(FILE *out, const Sweep *s) {
     Arena *arena = arena_create();
     fputs("<div class=\"scroll\"><table>\n<thead><tr><th scope=\"col\">Method</th><th "
           "scope=\"col\">Picture, s</th><th scope=\"col\">least&#8211;most</th><th "
-          "scope=\"col\">MB</th><th scope=\"col\">Mray/s</th><th scope=\"col\">Prepare, "
+          "scope=\"col\">Rounds</th><th scope=\"col\">MB</th><th scope=\"col\">Mray/s</th><th "
+          "scope=\"col\">Prepare, "
           "ms</th><th scope=\"col\">Position, diameters</th><th "
           "scope=\"col\">pixels</th><th scope=\"col\">Normal, &#176;</th><th scope=\"col\">Wrong "
           "hits</th><th "
@@ -205,11 +206,11 @@ static void put_table(FILE *out, const Sweep *s) {
         fprintf(out, "<tr%s><th scope=\"row\">%s</th>", r->front ? " class=\"front\"" : "",
                 sweep_point_name(&r->point, arena));
         if (r->failed) {
-            fprintf(out, "<td colspan=\"14\">%s</td></tr>\n", r->failed);
+            fprintf(out, "<td colspan=\"15\">%s</td></tr>\n", r->failed);
             continue;
         }
-        fprintf(out, "<td>%.3f</td><td class=\"soft\">%.3f&#8211;%.3f</td><td>%.0f</td>",
-                r->picture.median, r->picture.least, r->picture.most, r->megabytes);
+        fprintf(out, "<td>%.3f</td><td class=\"soft\">%.3f&#8211;%.3f</td><td>%d</td><td>%.0f</td>",
+                r->picture.median, r->picture.least, r->picture.most, r->rounds, r->megabytes);
         if (r->point.povray)
             fputs("<td colspan=\"8\"></td>", out);
         else
@@ -240,8 +241,11 @@ static void put_scene(FILE *out, const Sweep *s, const char *folder) {
     html_text(out, file_name(s->scene));
     fprintf(out,
             "</h2>\n<p class=\"soft\">%u patches, %zu shared edges, %d &#215; %d pixels, one "
-            "pinned thread, median of %d round%s in turn. The truth is qi at 1e-14.</p>\n",
-            s->patches, s->edges, s->width, s->height, s->rounds, s->rounds == 1 ? "" : "s");
+            "pinned thread, median of %d round%s in turn. A point may take %g seconds, all rounds "
+            "together; then it has no more rounds, or is given up. The truth is qi at "
+            "1e-14.</p>\n",
+            s->patches, s->edges, s->width, s->height, s->rounds, s->rounds == 1 ? "" : "s",
+            s->patience);
     if (s->no_povray) {
         fputs("<p>POV-Ray&#8217;s own points are missing: ", out);
         html_text(out, s->no_povray);

@@ -48,7 +48,7 @@ static void render(void *context) {
             arena_printf(r->arena,
                          "cd %s/scene && ulimit -t %.0f && ulimit -v %ld && exec taskset -c 0 "
                          "povray +I%s +Oout.png +W%d +H%d -A -D -P +WT1 +FN16",
-                         r->copy->folder, ceil(r->options->patience), kilobytes,
+                         r->copy->folder, ceil(r->options->patience + r->copy->seconds), kilobytes,
                          quote(r->arena, r->copy->scene), r->width, r->height));
     r->run = run_command_line(&command, "POV-Ray",
                               arena_printf(r->arena, "%s/log.txt", r->copy->folder), r->arena);
@@ -85,6 +85,7 @@ const char *sweep_povray_begin(const SweepOptions *o, SweepCopy *copy, Arena *ar
         script = arena_printf(arena, "%s && cp -L %s/*.inc %s/scene 2>/dev/null; true", script,
                               quote(arena, o->library_paths[i]), copy->folder);
     shell(arena, copy, script);
+    copy->seconds = o->patience; // to read it
     const char *said =
         shell(arena, copy, "povray --version 2>&1 | grep -o -m1 'POV-Ray [0-9][^ ]*'");
     copy->version = arena_printf(arena, "%.*s", (int)strcspn(said, "\n"), said);
@@ -114,6 +115,7 @@ const char *sweep_povray(const SweepOptions *o, const SweepCopy *copy, int steps
     if (why)
         return why;
     run->seconds = whole.run.seconds - copy->seconds;
+    run->used = whole.run.seconds;
     run->megabytes = whole.run.megabytes - copy->megabytes;
     *picture = image_read(arena, arena_printf(arena, "%s/scene/out.png", copy->folder));
     return NULL;

@@ -15,9 +15,9 @@ typedef struct {
     double seconds, megabytes;
 } SweepCopy;
 
-// What a picture takes beyond that.
+// What a picture takes beyond that; used: all that it took.
 typedef struct {
-    double seconds, megabytes;
+    double seconds, megabytes, used;
 } SweepPovray;
 
 // NULL: done; else why not.
@@ -25,8 +25,8 @@ const char *sweep_povray_begin(const SweepOptions *options, SweepCopy *copy, Are
 void sweep_povray_end(const SweepCopy *copy);
 
 // Renders with u_steps and v_steps n and flatness 0 wherever the text gives a number or a name for
-// them; on one pinned thread, not for longer than the patience, with at most half of the machine's
-// memory. NULL: done; else why not.
+// them; on one pinned thread, not for longer than the patience beyond reading the scene, with at
+// most half of the machine's memory. NULL: done; else why not.
 const char *sweep_povray(const SweepOptions *options, const SweepCopy *copy, int steps,
                          SweepPovray *run, Image **picture, Arena *arena);
 

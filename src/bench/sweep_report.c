@@ -48,10 +48,11 @@ typedef struct {
     double value;
 } Column;
 
-enum { COLUMNS = 23 };
+enum { COLUMNS = 28, OF_EVERY = 5, OF_THE_PICTURE = 6 };
 
 static void columns_of(const SweepResult *r, Column out[COLUMNS]) {
     const Column columns[COLUMNS] = {
+        {"rounds", r->rounds},
         {"picture_s", r->picture.median},
         {"picture_s_min", r->picture.least},
         {"picture_s_max", r->picture.most},
@@ -72,16 +73,20 @@ static void columns_of(const SweepResult *r, Column out[COLUMNS]) {
         {"wrong_hits_share", r->wrong},
         {"edge_leaks_share", r->leaks},
         {"pin_hole_pixels", r->holes},
+        {"picture_rms_same_hits_steps", r->rms_same},
         {"picture_rms_steps", r->rms},
         {"picture_psnr_db", r->psnr},
         {"pixels_off_share", r->off},
+        {"worst_steps", r->worst},
+        {"worst_x", r->worst_x},
+        {"worst_y", r->worst_y},
     };
     memcpy(out, columns, sizeof columns);
 }
 
 // POV-Ray's hits are not known: only its picture.
 static bool is_known(const SweepResult *r, int column) {
-    return !r->point.povray || column < 4 || column >= COLUMNS - 3;
+    return !r->point.povray || column < OF_EVERY || column >= COLUMNS - OF_THE_PICTURE;
 }
 
 static const char *method_of(const SweepPoint *p) {

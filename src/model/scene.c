@@ -612,6 +612,13 @@ void scene_collect_requires(Scene *scene, Arena *arena) {
     scene->requires[scene->requires_count++] = FEATURE_NAMES[i];
 }
 
+Box patch_shape_box(const PatchShape *patch) {
+    Box box = box_empty();
+    for (uint32_t k = 0; k < (patch->degree_u + 1) * (patch->degree_v + 1); k++)
+        box = box_extend(box, patch->points[k]);
+    return box;
+}
+
 bool scene_requires_known(const char *word) {
     for (int i = 0; i < FEATURE_COUNT; i++)
         if (strcmp(word, FEATURE_NAMES[i]) == 0)

@@ -502,6 +502,9 @@ typedef struct {
     Vec2 uv[4];                  // at (i,j) = (0,0), (0,d), (d,d), (d,0)
 } PatchShape;
 
+// About its control points, so about the patch.
+Box patch_shape_box(const PatchShape *patch);
+
 typedef struct { // { p : normal . p = distance }, world space; inside is the side normal points
                  // from
     Vec3 normal; // unit

@@ -595,7 +595,7 @@ const OptionRow option_rows[] = {
      .commands = FOR_SWEEP, .help = "sweep: also write index.html, sweep.csv and sweep.json there"},
     {OPTION_SPECIAL, NULL, NULL, "patience", "s", IN_QIBENCH, FIELD(bench.patience), CLIP(1, 1e6),
      .apply = bench_apply_within, .commands = FOR_SWEEP,
-     .help = "sweep: give a point up after so many seconds (60)"},
+     .help = "sweep: what a point may take, all rounds together, before it is given up (60)"},
     {OPTION_SPECIAL, NULL, NULL, "povray", "on|off", IN_QIBENCH, .apply = bench_apply_povray,
      .commands = FOR_SWEEP, .help = "sweep: run POV-Ray too (on)"},
     {OPTION_FLAG, NULL, NULL, "study", NULL, IN_QIBENCH, FIELD(bench.study), .commands = FOR_SWEEP,

@@ -40,13 +40,6 @@ typedef struct {
 // is the box of its own surface.
 static uint32_t make_node(Maker *maker, uint32_t index, uint32_t parent, bool framed, int depth);
 
-static Box patch_box(const PatchShape *patch) {
-    Box box = box_empty();
-    for (uint32_t i = 0; i < (patch->degree_u + 1) * (patch->degree_v + 1); i++)
-        box = box_extend(box, patch->points[i]);
-    return widened(box);
-}
-
 // All but what an inverted shape encloses is inside it.
 static Box outside_of(const Shape *shape) {
     Shape plain = *shape;
@@ -59,7 +52,7 @@ static void make_leaf(Maker *maker, CsgNode *node) {
     node->inside = box_empty();
     node->outside = EVERYWHERE;
     if (node->object->type == OBJECT_PATCH) {
-        node->reach = patch_box(&node->object->shape.patch);
+        node->reach = widened(patch_shape_box(&node->object->shape.patch));
         return;
     }
     Shape *shape = ARENA_NEW(maker->arena, Shape);

@@ -65,12 +65,9 @@ static double mean_share(const Scene *scene, const PatchSetOptions *options) {
     double sum = 0.0;
     size_t count = 0;
     for (uint32_t i = 0; i < scene->object_count; i++) {
-        const PatchShape *patch = &scene->objects[i].shape.patch;
         if (scene->objects[i].type != OBJECT_PATCH)
             continue;
-        Box box = box_empty();
-        for (uint32_t k = 0; k < (patch->degree_u + 1) * (patch->degree_v + 1); k++)
-            box = box_extend(box, patch->points[k]);
+        const Box box = patch_shape_box(&scene->objects[i].shape.patch);
         double share = patchset_tolerance(options, box) / vec_length(vec_sub(box.high, box.low));
         if (!(share > 0.0) || !isfinite(share))
             continue;

@@ -142,11 +142,7 @@ static Box bounds_of(const World *world, const Leaf *leaf) {
         return moved_box(leaf->instance->transform, leaf->instance->world->bounds);
     if (leaf->node != NO_INDEX)
         return world->csg.nodes[leaf->node].reach;
-    const PatchShape *patch = &world->scene->objects[leaf->object].shape.patch;
-    Box box = box_empty();
-    for (uint32_t i = 0; i < (patch->degree_u + 1) * (patch->degree_v + 1); i++)
-        box = box_extend(box, patch->points[i]);
-    return box;
+    return patch_shape_box(&world->scene->objects[leaf->object].shape.patch);
 }
 
 static bool is_empty(const Box *box) {
@@ -227,10 +223,7 @@ static void add_patches(World *world, const PatchSetOptions *options) {
                         .flatness = patch->flatness,
                         .u_steps = patch->u_steps,
                         .v_steps = patch->v_steps};
-        Box box = box_empty();
-        for (uint32_t k = 0; k < (def.degree_u + 1) * (def.degree_v + 1); k++)
-            box = box_extend(box, def.points[k]);
-        world->leaves[i].tolerance = patchset_tolerance(options, box);
+        world->leaves[i].tolerance = patchset_tolerance(options, patch_shape_box(patch));
         patchset_add(*set, &def);
     }
     if (world->patches)

@@ -71,6 +71,12 @@ void run_catch_signals(void) {
     signal(SIGTERM, on_signal);
 }
 
+void run_end_with_us(pid_t child) {
+    running = child;
+    if (child > 0 && run_interrupted)
+        kill(child, SIGTERM);
+}
+
 // The child: both outputs to the file, then the program.
 _Noreturn static void become(const Command *command, const char *log) {
     int file = open(log, O_WRONLY | O_CREAT | O_TRUNC, 0666), none = open("/dev/null", O_RDONLY);

@@ -7,6 +7,7 @@
 
 #include <signal.h>
 #include <stddef.h>
+#include <sys/types.h>
 
 enum { RUN_MOST_WORDS = 1024 };
 
@@ -36,6 +37,8 @@ Run run_command_line(Command *command, const char *name, const char *log, Arena 
 // run_interrupted; a second one ends this program at once.
 extern volatile sig_atomic_t run_interrupted;
 void run_catch_signals(void);
+// The same for a process that was started otherwise; 0: there is none.
+void run_end_with_us(pid_t child);
 
 const char *run_find_qirender(Arena *arena); // its path; dies if it is not there
 const char *run_machine(Arena *arena);       // the processor and its cores, for tables of times

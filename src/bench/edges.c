@@ -147,7 +147,8 @@ EdgeRays edges_find(const Scene *scene, size_t most, Arena *arena) {
     // In turn over the edges, until there are enough rays or some tries have found no smooth place.
     bool *smooth = ARENA_ARRAY(arena, bool, shared.count);
     size_t tries = shared.count * TRIES;
-    for (size_t k = 0; rays.count < most && (k < tries || rays.count > 0); k++) {
+    for (size_t k = 0; shared.count > 0 && rays.count < most && (k < tries || rays.count > 0);
+         k++) {
         size_t i = k % shared.count;
         if (aim(&shared.items[i], k & 1, &rng, &rays.rays[rays.count])) {
             rays.count++;

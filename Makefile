@@ -178,7 +178,7 @@ fuzz: deps
 	@tests/fuzz.sh scene 3000
 	@tests/fuzz.sh json 600
 
-# Every primitive in every variant against POV-Ray, as a table (about five minutes).
+# Every primitive in every variant against POV-Ray, as a table (about four minutes).
 solids: deps
 	@$(MAKE) --no-print-directory -j$$(nproc) build/solids
 	@QIPOV_SOLIDS=full build/solids

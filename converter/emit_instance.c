@@ -15,9 +15,15 @@
 
 enum { SHARE_LEAST = 2000 };
 
+// What some of the parts forbid: a mirror, that shows them inside out; to be stretched.
+typedef struct {
+    bool mirrors, stretches;
+} Parts;
+
 struct Shared {
     uint64_t copies;
-    bool judged, fits, turns; // turns: a mirror would show its parts inside out
+    bool judged, fits;
+    Parts parts;
     ARRAY(Definition) definitions;
 };
 
@@ -47,7 +53,7 @@ static bool bends(const TextureNode *texture) {
             texture->finish->refraction != 1.0F);
 }
 
-static bool part_fits(const ObjectNode *node, bool *turns) {
+static bool part_fits(const ObjectNode *node, Parts *parts) {
     const Object *object = &node->object;
     bool tree = object_is_tree(object);
     if (node->light || node->keyword == KW_light_group || node->bounds || node->cutaway)
@@ -63,19 +69,22 @@ static bool part_fits(const ObjectNode *node, bool *turns) {
     // What is found to an accuracy depends on the rounding of the way there.
     if (object->type == OBJECT_ISOSURFACE || object->type == OBJECT_PARAMETRIC)
         return false;
-    if (object->type == OBJECT_PATCH)
+    // Where patches are cut by flatness they are cut by their size. Tolerances are shares of it.
+    if (object->type == OBJECT_PATCH && object->shape.patch.flatness > 0)
         return false;
+    parts->stretches |= object->type == OBJECT_PATCH;
     if (node->clips && (object->type == OBJECT_PLANE || object->type == OBJECT_POLY ||
                         object->type == OBJECT_QUADRIC))
         return false;
-    *turns |= object->type == OBJECT_TRIANGLE || object->type == OBJECT_SMOOTH_TRIANGLE;
+    parts->mirrors |= object->type == OBJECT_TRIANGLE || object->type == OBJECT_PATCH ||
+                      object->type == OBJECT_SMOOTH_TRIANGLE;
     return true;
 }
 
-static bool list_fits(const ObjectNode *list, bool *turns) {
+static bool list_fits(const ObjectNode *list, Parts *parts) {
     for (; list; list = list->next)
-        if (!part_fits(list, turns) || !list_fits(list->first, turns) ||
-            !list_fits(list->clips, turns))
+        if (!part_fits(list, parts) || !list_fits(list->first, parts) ||
+            !list_fits(list->clips, parts))
             return false;
     return true;
 }
@@ -103,11 +112,17 @@ static bool is_moderate(const Transform *t) {
     return out <= MOST_SCALE * MOST_SCALE && in <= MOST_SCALE * MOST_SCALE;
 }
 
-static bool is_mirror(const Transform *t) {
+// Does it mirror, or stretch one way more than another (but for rounding)?
+static Parts forbidden_by(const Transform *t) {
     Vec3 row[3];
     for (int i = 0; i < 3; i++)
         row[i] = vec3(t->m[i][0], t->m[i][1], t->m[i][2]);
-    return vec_dot(vec_cross(row[0], row[1]), row[2]) < 0;
+    double size = vec_dot(row[0], row[0]), off = 0;
+    for (int i = 0; i < 3; i++)
+        off = fmax(off, fmax(fabs(vec_dot(row[i], row[i]) - size),
+                             fabs(vec_dot(row[i], row[(i + 1) % 3]))));
+    bool mirrors = vec_dot(vec_cross(row[0], row[1]), row[2]) < 0;
+    return (Parts){mirrors, off > 1e-9 * size};
 }
 
 Shared *instance_find(Emitter *e, const ObjectNode *node, Transform *move) {
@@ -119,14 +134,17 @@ Shared *instance_find(Emitter *e, const ObjectNode *node, Transform *move) {
         return NULL;
     if (!shared->judged) {
         shared->judged = true;
-        shared->fits = list_fits(node->first, &shared->turns);
+        shared->fits = list_fits(node->first, &shared->parts);
     }
     *move = transform_identity();
     for (const LateMove *late = node->late; late; late = late->before)
         *move = transform_compose(&late->move->t, move);
     bool fits = shared->fits && !node->cutaway && !node_extent_cuts(node) && is_bounded(node) &&
                 !bends(node->texture) && !node->interior_texture && !node->object.uv_mapping;
-    return fits && is_moderate(move) && !(shared->turns && is_mirror(move)) ? shared : NULL;
+    const Parts off = forbidden_by(move), *parts = &shared->parts;
+    fits = fits && is_moderate(move) && !(parts->mirrors && off.mirrors) &&
+           !(parts->stretches && off.stretches);
+    return fits ? shared : NULL;
 }
 
 // ---- definitions ------------------------------------------------------------------------------

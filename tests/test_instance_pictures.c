@@ -58,12 +58,12 @@ static const char STAGE[] =
 static const char SHARED[] = "#declare One = Make() #macro Thing() One #end Copies()\n";
 static const char APART[] = "#macro Thing() Make() #end Copies()\n";
 
-static const char *write_scene(const char *name, const char *rest) {
+static const char *write_scene(const char *name, const char *stage, const char *rest) {
     static char path[256];
     snprintf(path, sizeof path, "%s/%s.pov", scratch_folder(), name);
     FILE *file = fopen(path, "w");
     assert_non_null(file);
-    fprintf(file, "%s%s", STAGE, rest);
+    fprintf(file, "%s%s", stage, rest);
     fclose(file);
     return path;
 }
@@ -75,9 +75,9 @@ static uint32_t count_type(const Scene *scene, ObjectType type) {
     return count;
 }
 
-static Scene *convert_with(const char *rest) {
+static Scene *convert_with(const char *stage, const char *rest) {
     static char text[2 * sizeof STAGE];
-    snprintf(text, sizeof text, "%s%s", STAGE, rest);
+    snprintf(text, sizeof text, "%s%s", stage, rest);
     Converted converted = convert_raw(text);
     assert_non_null(converted.scene);
     return converted.scene;
@@ -85,15 +85,18 @@ static Scene *convert_with(const char *rest) {
 
 static void test_shared(void **state) {
     (void)state;
-    const Scene *scene = convert_with(SHARED);
+    const Scene *scene = convert_with(STAGE, SHARED);
     assert_int_equal(count_type(scene, OBJECT_INSTANCE), 66);
     // Hollow, without reflection, and the others.
     assert_int_equal(scene->definition_count, 3);
     assert_int_equal(count_type(scene, OBJECT_SPHERE), 3 * 30);
-    scene = convert_with(APART);
+    scene = convert_with(STAGE, APART);
     assert_int_equal(count_type(scene, OBJECT_INSTANCE), 0);
     assert_int_equal(count_type(scene, OBJECT_SPHERE), 66 * 30);
 }
+
+#define PATCH(flatness)                                                                            \
+    "bicubic_patch { type 1 flatness " flatness " u_steps 1 v_steps 1 " PATCH_POINTS "}"
 
 // A scene of few parts keeps each in its place, and what cannot be shared is not: lights, bounds,
 // triangles that are mirrored, patches.
@@ -114,8 +117,10 @@ static void test_not_shared(void **state) {
         {"sphere { I*x, 0.1 }", "scale 0.001 translate J*y", 200, 0},
         {"sphere { I*x, 0.1 pigment { uv_mapping checker } }", "translate J*y", 200, 0},
         {"box { I*x, I*x+0.1 pigment { uv_mapping checker } }", "translate J*y", 200, 200},
-        {"bicubic_patch { type 1 flatness 0 u_steps 1 v_steps 1 " PATCH_POINTS "}", "translate J*y",
-         200, 0},
+        {PATCH("0"), "rotate J*y scale 0.7 translate J*y", 200, 200},
+        {PATCH("0.1"), "translate J*y", 200, 0},
+        {PATCH("0"), "scale <1, 1, 2> translate J*y", 200, 0},
+        {PATCH("0"), "scale <1, 1, -1> translate J*y", 200, 0},
         {"isosurface { function { x } }", "translate J*y", 200, 0},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
@@ -131,19 +136,58 @@ static void test_not_shared(void **state) {
     }
 }
 
+// Bowls of patches and a knob: as POV-Ray's triangles beside POV-Ray, and as patches.
+static const char BOWLS[] =
+    "#version 3.7; global_settings { assumed_gamma 1 }\n"
+    "camera { location <0, 9, -16> right 4/3*x look_at <0, 0, 3> angle 50 }\n"
+    "light_source { <-200, 300, -150> 1 }\n"
+    "plane { y, 0 pigment { checker rgb 0.6 rgb 0.4 } }\n"
+    "#declare S = seed(4);\n"
+    "#macro Make() union {\n"
+    "  #for (I, 0, 19) bicubic_patch { type 1 flatness 0 u_steps 3 v_steps 3\n"
+    "    #for (U, 0, 3) #for (V, 0, 3) vrotate(<0.3 + 0.3*V - 0.1*U, 0.4*V + 0.1*mod(U*V, 3), 0>,"
+    "      (I + U/3)*18*y) #end #end rotate 0 } #end\n"
+    "  sphere { 0.4*y, 0.3 pigment { rgb <0.9, 0.7, 0.2> } finish { reflection 0.3 } }\n"
+    "  pigment { marble turbulence 0.3 scale 0.4 } finish { phong 0.4 } } #end\n"
+    "#macro Copies() #for (J, 0, 119) object { Thing() rotate y*360*rand(S)\n"
+    "  scale 0.5 + 0.4*rand(S) rotate 20*x*rand(S)\n"
+    "  translate <16*(rand(S)-0.5), 0.3, 16*rand(S)-5> } #end #end\n";
+
+// The same with all copies held once and with parts of their own. povray: beside POV-Ray's, too.
+static void check_pictures(const char *name, const char *stage, const char *switches, bool povray) {
+    char ours[256], file[256], apart[64];
+    const char *path = write_scene(name, stage, SHARED);
+    snprintf(ours, sizeof ours, "%s", render_with_qirender(name, path, switches));
+    if (povray)
+        assert_true(percent_over(ours, render_with_povray("povray", path, switches), 0.0041) <=
+                    0.1);
+    // By way of the scene file.
+    snprintf(file, sizeof file, "%s/%s.qi.json", scratch_folder(), name);
+    assert_int_equal(run_command(NULL, "build/test/pov2qi %s -o %s", path, file), 0);
+    assert_true(percent_over(ours, render_with_qirender("file", file, switches), 0) == 0);
+    snprintf(apart, sizeof apart, "%s-apart", name);
+    path = write_scene(apart, stage, APART);
+    double off = percent_over(ours, render_with_qirender(apart, path, switches), 0.0041);
+    print_message("%s: %.3f %% off\n", name, off);
+    assert_true(off <= 0.03);
+}
+
 static void test_pictures(void **state) {
     (void)state;
-    static const char SWITCHES[] = "+W160 +H120 -D -A";
-    const char *path = write_scene("shared", SHARED);
-    char ours[256], file[256];
-    snprintf(ours, sizeof ours, "%s", render_with_qirender("shared", path, SWITCHES));
-    assert_true(percent_over(ours, render_with_povray("povray", path, SWITCHES), 0.0041) <= 0.1);
-    // By way of the scene file.
-    snprintf(file, sizeof file, "%s/shared.qi.json", scratch_folder());
-    assert_int_equal(run_command(NULL, "build/test/pov2qi %s -o %s", path, file), 0);
-    assert_true(percent_over(ours, render_with_qirender("file", file, SWITCHES), 0) == 0);
-    path = write_scene("apart", APART);
-    assert_true(percent_over(ours, render_with_qirender("apart", path, SWITCHES), 0.0041) <= 0.02);
+    check_pictures("solids", STAGE, "+W160 +H120 -D -A", true);
+    check_pictures("patches", BOWLS, "+W120 +H90 -D -A", false);
+    check_pictures("triangles", BOWLS, "+W120 +H90 -D -A --method facets", false);
+    assert_int_equal(count_type(convert_with(BOWLS, SHARED), OBJECT_PATCH), 20);
+}
+
+static void test_like_povray(void **state) {
+    (void)state;
+    const char *path = write_scene("bowls", BOWLS, SHARED);
+    const char *ours = render_with_qirender("bowls", path, "+W120 +H90 -D -A --method facets");
+    char kept[256];
+    snprintf(kept, sizeof kept, "%s", ours);
+    const char *theirs = render_with_povray("povray", path, "+W120 +H90 -D -A");
+    assert_true(percent_over(kept, theirs, 0.0041) <= 0.1);
 }
 
 int main(void) {
@@ -151,6 +195,7 @@ int main(void) {
         cmocka_unit_test(test_shared),
         cmocka_unit_test(test_not_shared),
         cmocka_unit_test(test_pictures),
+        cmocka_unit_test(test_like_povray),
     };
     return cmocka_run_group_tests_name("instance_pictures", tests, NULL, NULL);
 }

@@ -67,6 +67,13 @@ static void put_nets(const Story *story, uint32_t depth, const Bezier *patch, co
 
 // The patch's own parameters of the hit are asked for again, by the certified method.
 static void put_patch(const Story *story, const Path *path, const WorldHit *hit) {
+    Ray ray = path->ray; // in the space of the patch; t stays
+    const Object *instance =
+        hit->instance == NO_INDEX ? NULL : &story->scene->objects[hit->instance];
+    if (instance && instance->has_transform) {
+        ray.org = transform_inv_point(&instance->transform, ray.org);
+        ray.dir = transform_inv_dir(&instance->transform, ray.dir);
+    }
     uint32_t depth = path->nesting + 1;
     const PatchShape *shape = &story->scene->objects[hit->object].shape.patch;
     Bezier patch;
@@ -74,8 +81,8 @@ static void put_patch(const Story *story, const Path *path, const WorldHit *hit)
     double diameter = bezier_diameter(&patch);
     line(story, depth, "bound of the error %.3g, %.2g of the patch's diameter", hit->bound,
          diameter > 0.0 ? hit->bound / diameter : 0.0);
-    QiQuery query = qi_query_default(&patch, path->ray);
-    double reach = 2.0 * hit->bound + query.tolerance + qi_rounding(&patch, path->ray.org);
+    QiQuery query = qi_query_default(&patch, ray);
+    double reach = 2.0 * hit->bound + query.tolerance + qi_rounding(&patch, ray.org);
     query.t_min = fmax(hit->t - reach, 0.0), query.t_max = hit->t + reach;
     QiStats stats = {0};
     QiHit again;
@@ -84,7 +91,7 @@ static void put_patch(const Story *story, const Path *path, const WorldHit *hit)
         return;
     }
     line(story, depth, "u %.15g v %.15g", again.u, again.v);
-    put_nets(story, depth, &patch, &path->ray, &again);
+    put_nets(story, depth, &patch, &ray, &again);
 }
 
 void story_hit(const Story *story, const Path *path, const WorldHit *hit, const PatchStats *work) {

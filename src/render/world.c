@@ -279,8 +279,15 @@ static void try_patches(RayQuery *query) {
     PatchStats *stats = &query->stats->patch;
     double t_min = query->patch_min;
     PatchHit hit;
-    if (world->patches && patchset_intersect(world->patches, query->ray, t_min, reach(query),
-                                             query->kind, stats, &hit))
+    if (query->any && world->patches &&
+        patchset_occluded(world->patches, query->ray, t_min, reach(query), query->kind, stats)) {
+        query->depth = query->t = t_min; // some depth, of some patch
+        query->leaf = world->leaves;
+        return;
+    }
+    if (!query->any && world->patches &&
+        patchset_intersect(world->patches, query->ray, t_min, reach(query), query->kind, stats,
+                           &hit))
         try_patch_hit(query, &hit);
     if (world->filtered)
         patchset_all(world->filtered, query->ray, t_min, reach(query), query->kind, stats,

@@ -58,13 +58,17 @@ static uint32_t blind_to(const Scene *scene, const Object *object, const Place *
     }
 }
 
-// The largest length that the unit sphere has after rows 0 to 2 of m, or more.
+// The most that rows 0 to 2 of m stretch a length: the root of a bound on the eigenvalues of m
+// times its transpose (Gershgorin), which is exact for turned and evenly scaled spaces.
 static double stretch_of(const double m[4][4]) {
-    double square = 0.0;
-    for (int i = 0; i < 3; i++)
+    double most = 0.0;
+    for (int i = 0; i < 3; i++) {
+        double sum = 0.0;
         for (int j = 0; j < 3; j++)
-            square += m[i][j] * m[i][j];
-    return sqrt(square);
+            sum += fabs(m[i][0] * m[j][0] + m[i][1] * m[j][1] + m[i][2] * m[j][2]);
+        most = fmax(most, sum);
+    }
+    return sqrt(most);
 }
 
 // A ray's origin and direction are taken into the definition's space, and a depth back. Each
@@ -341,6 +345,44 @@ static void fill(World *world, const uint32_t *roots, uint32_t root_count,
     arena_destroy(scratch);
 }
 
+// Tolerances of a definition's patches: what the most demanding instance asks for.
+typedef struct {
+    const Scene *scene;
+    const PatchSetOptions *options;
+    uint32_t definition;
+} InnerTolerance;
+
+static double inner_tolerance(const void *context, Box bounds) {
+    const InnerTolerance *inner = context;
+    const Scene *scene = inner->scene;
+    double least = INFINITY;
+    for (uint32_t i = 0; i < scene->object_count; i++) {
+        const Object *object = &scene->objects[i];
+        if (object->type != OBJECT_INSTANCE ||
+            object->shape.instance.definition != inner->definition)
+            continue;
+        const Transform *t = object->has_transform ? &object->transform : NULL;
+        double there = inner->options->tolerance_of(inner->options->context, moved_box(t, bounds));
+        if (!(there > 0.0))
+            return 0.0;
+        least = fmin(least, t ? there / stretch_of(t->m) : there);
+    }
+    return isfinite(least) ? least : 0.0;
+}
+
+static World *create_inner(const World *world, uint32_t index, const PatchSetOptions *patches) {
+    World *part = ARENA_NEW(world->arena, World);
+    const InnerTolerance tolerance = {world->scene, patches, index};
+    PatchSetOptions options = *patches;
+    if (options.tolerance_of) {
+        options.tolerance_of = inner_tolerance;
+        options.context = &tolerance;
+    }
+    *part = (World){.arena = world->arena, .scene = world->scene, .csg = world->csg, .inner = true};
+    fill(part, &world->scene->definitions[index], 1, &options);
+    return part;
+}
+
 World *world_create(const Scene *scene, const PatchSetOptions *patches) {
     Arena *arena = arena_create();
     World *world = ARENA_NEW(arena, World);
@@ -349,11 +391,8 @@ World *world_create(const Scene *scene, const PatchSetOptions *patches) {
     world->csg = csg_create(scene, patches, arena);
     world->definitions = ARENA_ARRAY(arena, World *, scene->definition_count);
     world->definition_count = scene->definition_count;
-    for (uint32_t i = 0; i < scene->definition_count; i++) {
-        World *part = world->definitions[i] = ARENA_NEW(arena, World);
-        *part = (World){.arena = arena, .scene = scene, .csg = world->csg, .inner = true};
-        fill(part, &scene->definitions[i], 1, patches);
-    }
+    for (uint32_t i = 0; i < scene->definition_count; i++)
+        world->definitions[i] = create_inner(world, i, patches);
     fill(world, scene->roots, scene->root_count, patches);
     return world;
 }

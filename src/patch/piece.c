@@ -23,7 +23,7 @@ enum { MAX_DEPTH = 20, FEW = 64 };
 // How far to go, by --prepare: pieces a patch and pieces in all, of about 350 bytes each. The patch
 // itself is 1,000 bytes.
 // ORDER patch_prepare
-static const struct { size_t a_patch, in_all; } limits[] = {{4096, 4000000}, {32, 900000}, {1, 1}};
+static const struct { size_t a_patch, in_all; } limits[] = {{4096, 4000000}, {16, 900000}, {1, 1}};
 
 typedef struct {
     BezierRect rect;

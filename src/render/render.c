@@ -97,6 +97,10 @@ static void add_stats(RayStats *sum, const RayStats *one) {
 
 static Color trace_with(void *tracer, const Ray *ray) { return tracer_trace(tracer, ray); }
 
+static void foresee_with(void *tracer, const Ray *rays, size_t across, size_t down) {
+    tracer_foresee(tracer, rays, across, down);
+}
+
 // The tiles of one render, and what its threads share.
 typedef struct {
     const Scene *scene;
@@ -180,6 +184,7 @@ static void render_tiles(Job *job, RenderStats *stats) {
         Tracer *tracer = tracer_create(job->shading);
         Sampler *sampler =
             sampler_create(&samples, &job->scene->camera, o->width, o->height, job->block);
+        sampler_foresee(sampler, foresee_with);
 #pragma omp for schedule(dynamic, 1)
         for (int i = 0; i < job->count; i++) {
             PixelRect tile = tile_at(job, i);

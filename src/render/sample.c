@@ -19,6 +19,8 @@
 
 #include <math.h>
 
+enum { PLANNED_ROWS = 4 };
+
 struct Sampler {
     SampleOptions options;
     CameraView view;
@@ -31,8 +33,13 @@ struct Sampler {
     // Method 2, one pixel: (2^depth + 1)^2 places and the pixel for which each was last traced.
     Color *place;
     uint32_t *place_pixel, pixel;
+    // Camera rays of some rows of the tile, when all of them exist.
+    Ray *planned;
+    size_t planned_across;
+    bool has_plan;
     uint64_t rays, supersampled;
-    SampleTrace trace; // of the tile at hand
+    SampleForesee foresee; // NULL: nobody wants to know
+    SampleTrace trace;     // of the tile at hand
     void *context;
 };
 
@@ -48,6 +55,7 @@ Sampler *sampler_create(const SampleOptions *options, const Camera *camera, int 
     s->arena = arena;
     size_t across = (size_t)(block < width ? block : width) + 1,
            down = (size_t)(block < height ? block : height) + 1;
+    s->planned = ARENA_ARRAY(arena, Ray, PLANNED_ROWS * across);
     if (options->method != 0) {
         s->block = ARENA_ARRAY(arena, Color, across * down);
         s->done = ARENA_ARRAY(arena, bool, across *down);
@@ -65,6 +73,8 @@ void sampler_destroy(Sampler *sampler) {
         arena_destroy(sampler->arena);
 }
 
+void sampler_foresee(Sampler *sampler, SampleForesee foresee) { sampler->foresee = foresee; }
+
 uint64_t sampler_rays(const Sampler *sampler) { return sampler->rays; }
 uint64_t sampler_pixels(const Sampler *sampler) { return sampler->supersampled; }
 
@@ -77,6 +87,28 @@ static Color trace_at(Sampler *s, double x, double y) {
     s->rays++;
     return s->trace(s->context, &ray);
 }
+
+// The next rows, at most PLANNED_ROWS, of `across` places a pixel apart; the first is at x, y.
+static void plan_rows(Sampler *s, double x, double y, int across, int down) {
+    s->has_plan = s->blur == NULL;
+    s->planned_across = (size_t)across;
+    for (int j = 0; j < down && s->has_plan; j++)
+        for (int i = 0; i < across && s->has_plan; i++)
+            s->has_plan = camera_ray(&s->view, x + i, y + j,
+                                     &s->planned[(size_t)j * s->planned_across + (size_t)i]);
+    if (s->has_plan && s->foresee)
+        s->foresee(s->context, s->planned, s->planned_across, (size_t)down);
+}
+
+// As trace_at, for place i of row j of the plan.
+static Color trace_planned(Sampler *s, int i, int j, double x, double y) {
+    if (!s->has_plan)
+        return trace_at(s, x, y);
+    s->rays++;
+    return s->trace(s->context, &s->planned[(size_t)j * s->planned_across + (size_t)i]);
+}
+
+static int rows_to_plan(int left) { return left < PLANNED_ROWS ? left : PLANNED_ROWS; }
 
 // As trace_at, moved by the jitter of the place; scale is the share of a pixel it may move by.
 static Color trace_jittered(Sampler *s, double x, double y, double scale) {
@@ -128,21 +160,24 @@ static void tile_on_difference(Sampler *s, PixelRect tile, Color *picture) {
     bool *done = s->done;
 
     // The frame above.
+    plan_rows(s, tile.left, tile.top - 1, across - 1, 1);
     for (int i = 1; i < across; i++) {
-        block[i] = trace_at(s, tile.left + i - 1, tile.top - 1);
+        block[i] = trace_planned(s, i - 1, 0, tile.left + i - 1, tile.top - 1);
         done[i] = true;
     }
     for (int j = 1; j < down; j++) {
-        int y = tile.top + j - 1;
+        int y = tile.top + j - 1, planned = (j - 1) % PLANNED_ROWS;
+        if (planned == 0)
+            plan_rows(s, tile.left - 1, y, across, rows_to_plan(down - j));
         Color *row = block + (size_t)j * (size_t)across, *above = row - across;
         bool *row_done = done + (size_t)j * (size_t)across, *above_done = row_done - across;
 
         // The frame at the left.
-        row[0] = trace_at(s, tile.left - 1, y);
+        row[0] = trace_planned(s, 0, planned, tile.left - 1, y);
         row_done[0] = true;
         for (int i = 1; i < across; i++) {
             int x = tile.left + i - 1;
-            row[i] = trace_at(s, x, y);
+            row[i] = trace_planned(s, i, planned, x, y);
             row_done[i] = false;
 
             // Both comparisons come before any of the three pixels changes.
@@ -227,10 +262,15 @@ static Color square_color(Sampler *s, Square q, int levels) {
 
 static void tile_by_corners(Sampler *s, PixelRect tile, Color *picture) {
     int across = tile.right - tile.left + 1, down = tile.bottom - tile.top + 1;
-    for (int j = 0; j < down; j++)
+    for (int j = 0; j < down; j++) {
+        int planned = j % PLANNED_ROWS;
+        double y = (double)(tile.top + j) - 0.5;
+        if (planned == 0)
+            plan_rows(s, tile.left - 0.5, y, across, rows_to_plan(down - j));
         for (int i = 0; i < across; i++)
             s->block[(size_t)j * (size_t)across + (size_t)i] =
-                trace_at(s, (double)(tile.left + i) - 0.5, (double)(tile.top + j) - 0.5);
+                trace_planned(s, i, planned, (double)(tile.left + i) - 0.5, y);
+    }
 
     int side = 1 << s->options.depth;
     for (int y = tile.top; y < tile.bottom; y++) {
@@ -254,6 +294,17 @@ static void tile_by_corners(Sampler *s, PixelRect tile, Color *picture) {
 
 // ---- tiles --------------------------------------------------------------------------------------
 
+static void tile_of_middles(Sampler *s, PixelRect tile, Color *picture) {
+    for (int y = tile.top; y < tile.bottom; y++) {
+        int planned = (y - tile.top) % PLANNED_ROWS;
+        if (planned == 0)
+            plan_rows(s, tile.left, y, tile.right - tile.left, rows_to_plan(tile.bottom - y));
+        for (int x = tile.left; x < tile.right; x++)
+            picture[(size_t)y * (size_t)s->width + (size_t)x] =
+                trace_planned(s, x - tile.left, planned, x, y);
+    }
+}
+
 void sampler_tile(Sampler *s, PixelRect tile, SampleTrace trace, void *context, Color *picture) {
     s->trace = trace;
     s->context = context;
@@ -262,8 +313,6 @@ void sampler_tile(Sampler *s, PixelRect tile, SampleTrace trace, void *context, 
     } else if (s->options.method == 2) {
         tile_by_corners(s, tile, picture);
     } else {
-        for (int y = tile.top; y < tile.bottom; y++)
-            for (int x = tile.left; x < tile.right; x++)
-                picture[(size_t)y * (size_t)s->width + (size_t)x] = trace_at(s, x, y);
+        tile_of_middles(s, tile, picture);
     }
 }

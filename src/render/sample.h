@@ -28,6 +28,10 @@ typedef struct {
 // The colour along a ray of unit length; must not depend on what was asked before.
 typedef Color (*SampleTrace)(void *context, const Ray *ray);
 
+// Told ahead which rays will be traced: `down` rows of `across` rays, in this order, among others.
+// They stay until the next call.
+typedef void (*SampleForesee)(void *context, const Ray *rays, size_t across, size_t down);
+
 // One per thread: scratch memory for a tile.
 typedef struct Sampler Sampler;
 
@@ -40,6 +44,9 @@ void sampler_destroy(Sampler *sampler);
 // method 1 the result depends on where the tile lies, as POV-Ray's does; never on other tiles.
 void sampler_tile(Sampler *sampler, PixelRect tile, SampleTrace trace, void *context,
                   Color *picture);
+
+// For all tiles from now on; gets the context of sampler_tile.
+void sampler_foresee(Sampler *sampler, SampleForesee foresee);
 
 uint64_t sampler_rays(const Sampler *sampler);   // camera rays so far
 uint64_t sampler_pixels(const Sampler *sampler); // pixels that were supersampled (methods 1, 2)

@@ -116,6 +116,11 @@ struct Tracer {
     Rgb *grid;                    // light_area.c: what is known of the area light at hand
     LayerReflection *reflections; // a stack; each hit under way holds a piece of it
     uint32_t reflection_top;      // pieces in use
+    // tracer_foresee's rays, and what they meet; how many, and which one is next.
+    const Ray *rays_foreseen;
+    WorldForeseen *foreseen;
+    size_t foreseen_room, foreseen_count, foreseen_next;
+    const WorldForeseen *at_hand; // of the ray that is about to be traced, or NULL
     Vec3 start;                   // where the last camera ray began
     bool start_known;
     InteriorList start_nodes[32]; // bodies around it, POV-Ray's list is as long as it needs

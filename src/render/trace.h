@@ -30,4 +30,9 @@ RayStats tracer_stats(const Tracer *tracer);
 // transparency of the pixel (0 without alpha), filter 0.
 Color tracer_trace(Tracer *tracer, const Ray *ray);
 
+// The rays that tracer_trace will be asked for next, in that order, others between them: `down`
+// rows of `across` rays of neighbouring pixels, which must stay until then. A matter of speed
+// alone.
+void tracer_foresee(Tracer *tracer, const Ray *rays, size_t across, size_t down);
+
 #endif

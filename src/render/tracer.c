@@ -241,8 +241,10 @@ void trace_path(Tracer *tracer, const Path *path, bool continued, Color *seen) {
     if (tracer->story)
         before = tracer->stats.patch;
     WorldNear near = world_near(shading->world, path->from, path->ray.dir, SHADE_MIN_DEPTH);
-    bool met =
-        world_nearest(shading->world, &path->ray, near, INFINITY, path->kind, &tracer->stats, &hit);
+    const WorldForeseen *foreseen = tracer->at_hand;
+    tracer->at_hand = NULL;
+    bool met = world_nearest_foreseen(shading->world, &path->ray, near, INFINITY, path->kind,
+                                      foreseen, &tracer->stats, &hit);
     if (tracer->story)
         tell_hit(tracer, path, continued, met ? &hit : NULL, &before);
     if (!met) {
@@ -290,6 +292,31 @@ static uint32_t grain_seed(const Ray *ray) {
     return hash;
 }
 
+void tracer_foresee(Tracer *tracer, const Ray *rays, size_t across, size_t down) {
+    const World *world = tracer->shading->world;
+    size_t count = across * down;
+    tracer->foreseen_count = tracer->foreseen_next = 0;
+    if (count > tracer->foreseen_room) {
+        tracer->foreseen = ARENA_ARRAY(tracer->arena, WorldForeseen, count);
+        tracer->foreseen_room = count;
+    }
+    WorldNear near = world_near(world, NULL, vec3(0, 0, 0), SHADE_MIN_DEPTH);
+    if (world_foresee(world, rays, across, down, near, RAY_CAMERA, &tracer->stats,
+                      tracer->foreseen)) {
+        tracer->rays_foreseen = rays;
+        tracer->foreseen_count = count;
+    }
+}
+
+static const WorldForeseen *take_foreseen(Tracer *tracer, const Ray *ray) {
+    size_t next = tracer->foreseen_next;
+    if (next >= tracer->foreseen_count ||
+        memcmp(&tracer->rays_foreseen[next], ray, sizeof *ray) != 0)
+        return NULL;
+    tracer->foreseen_next++;
+    return &tracer->foreseen[next];
+}
+
 Color tracer_trace(Tracer *tracer, const Ray *ray) {
     const Shading *shading = tracer->shading;
     Path path = {
@@ -302,6 +329,7 @@ Color tracer_trace(Tracer *tracer, const Ray *ray) {
     if (shading->grainy)
         tracer->crand = tracer->area_jitter = tracer->bow_jitter = grain_seed(ray);
     tracer->stats.primary++;
+    tracer->at_hand = take_foreseen(tracer, ray);
     Color color;
     trace_path(tracer, &path, false, &color);
     color.filter = 0.0f;

@@ -274,7 +274,7 @@ static double reach(const RayQuery *query) {
     return query->leaf ? nextafter(limit_of(query), INFINITY) : query->t;
 }
 
-static void try_patches(RayQuery *query) {
+static void try_patches(RayQuery *query, const WorldForeseen *foreseen) {
     const World *world = query->world;
     PatchStats *stats = &query->stats->patch;
     double t_min = query->patch_min;
@@ -285,9 +285,11 @@ static void try_patches(RayQuery *query) {
         query->leaf = world->leaves;
         return;
     }
-    if (!query->any && world->patches &&
-        patchset_intersect(world->patches, query->ray, t_min, reach(query), query->kind, stats,
-                           &hit))
+    if (foreseen && foreseen->found)
+        try_patch_hit(query, &foreseen->hit);
+    else if (!foreseen && !query->any && world->patches &&
+             patchset_intersect(world->patches, query->ray, t_min, reach(query), query->kind, stats,
+                                &hit))
         try_patch_hit(query, &hit);
     if (world->filtered)
         patchset_all(world->filtered, query->ray, t_min, reach(query), query->kind, stats,
@@ -343,7 +345,7 @@ static void try_instance(RayQuery *query, const Prim *prim) {
     sub.prim = sub.outer = NULL;
     try_prims(&sub);
     if (!(sub.any && sub.leaf))
-        try_patches(&sub);
+        try_patches(&sub, NULL);
     if (!sub.leaf)
         return;
     double t = sub.depth / local.scale;
@@ -363,17 +365,13 @@ static void try_instance(RayQuery *query, const Prim *prim) {
 }
 
 // The same ray with a unit direction; the old one's length, 0 if nothing can be asked of it (no
-// direction, numbers that are not finite). A direction that camera and shading
-// have made unit is left alone, bit for bit: its square is within rounding of 1.
+// direction, numbers that are not finite).
 static double unit_ray(const Ray *ray, Ray *unit) {
     *unit = *ray;
-    double square = vec_dot(ray->dir, ray->dir);
-    if (!vec_is_finite(ray->org))
-        return 0.0;
-    if (fabs(square - 1.0) <= 0x1p-48)
+    if (ray_is_unit(ray))
         return 1.0;
-    double length = sqrt(square);
-    if (!(length > 0.0) || !isfinite(length))
+    double length = vec_length(ray->dir);
+    if (!vec_is_finite(ray->org) || !(length > 0.0) || !isfinite(length))
         return 0.0;
     unit->dir = vec_scale(ray->dir, 1.0 / length);
     return length;
@@ -491,6 +489,12 @@ static void describe_moved(const RayQuery *query, bool without_uv, WorldHit *hit
 
 bool world_nearest(const World *world, const Ray *ray, WorldNear near, double t_max, RayKind kind,
                    RayStats *stats, WorldHit *hit) {
+    return world_nearest_foreseen(world, ray, near, t_max, kind, NULL, stats, hit);
+}
+
+bool world_nearest_foreseen(const World *world, const Ray *ray, WorldNear near, double t_max,
+                            RayKind kind, const WorldForeseen *foreseen, RayStats *stats,
+                            WorldHit *hit) {
     Ray unit;
     RayStats unused;
     if (!stats) {
@@ -505,7 +509,7 @@ bool world_nearest(const World *world, const Ray *ray, WorldNear near, double t_
     query.kind = kind;
     query.any = false;
     try_prims(&query);
-    try_patches(&query);
+    try_patches(&query, foreseen);
     if (!query.leaf)
         return false;
     hit->t = query.depth / length;

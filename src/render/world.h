@@ -39,6 +39,12 @@ typedef struct {
     ShapeTexture textures[SHAPE_MAX_TEXTURES];
 } WorldHit;
 
+// What a ray meets of the patches that nothing hides.
+typedef struct {
+    bool found;
+    PatchHit hit;
+} WorldForeseen;
+
 typedef struct World World;
 
 // scene must outlive the world and be valid.
@@ -68,6 +74,15 @@ double world_unit(const World *world);
 // least depth (facts: rendering 0.2).
 bool world_nearest(const World *world, const Ray *ray, WorldNear near, double t_max, RayKind kind,
                    RayStats *stats, WorldHit *hit);
+// The same, where the patches have been asked ahead: foreseen is that ray's (see foresee.c), or
+// NULL.
+bool world_nearest_foreseen(const World *world, const Ray *ray, WorldNear near, double t_max,
+                            RayKind kind, const WorldForeseen *foreseen, RayStats *stats,
+                            WorldHit *hit);
+// Asks the patches for rays of one kind that lie side by side, to `near` and infinity: `down` rows
+// of `across` rays, which is faster than one after the other. False: there is nothing to be gained.
+bool world_foresee(const World *world, const Ray *rays, size_t across, size_t down, WorldNear near,
+                   RayKind kind, RayStats *stats, WorldForeseen *foreseen);
 // The same with one t_min for all.
 bool world_intersect(const World *world, const Ray *ray, double t_min, double t_max, RayKind kind,
                      RayStats *stats, WorldHit *hit);

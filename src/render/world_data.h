@@ -54,6 +54,7 @@ struct World {
     Box *boundless_boxes; // hold what they contain where the trees around let it be
     uint32_t boundless_count;
     PatchSet *patches;   // that nothing hides; id: leaf position
+    bool packets;        // they are faster together
     bool exact;          // their hits carry bounds: not POV-Ray's triangles
     double size, unit;   // diameter of all patches; see world_unit()
     PatchSet *filtered;  // below a tree that may hide their hits
@@ -63,5 +64,11 @@ struct World {
     bool inner; // it is one of them
     Box bounds; // of all that can be seen
 };
+
+// A direction that camera and shading have made unit is left alone, bit for bit: its square is
+// within rounding of 1.
+static inline bool ray_is_unit(const Ray *ray) {
+    return vec_is_finite(ray->org) && fabs(vec_dot(ray->dir, ray->dir) - 1.0) <= 0x1p-48;
+}
 
 #endif

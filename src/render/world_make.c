@@ -250,6 +250,7 @@ static void measure_patches(World *world, PatchMethod method) {
     }
     bool any = box.low.x <= box.high.x;
     world->size = any ? vec_length(vec_sub(box.high, box.low)) : 0.0;
+    world->packets = method == METHOD_QI;
     world->exact = method != METHOD_FACETS && method != METHOD_TESSELLATION;
     bool tiny = world->exact && world->size > 0.0 && world->size < 0.05;
     world->unit = tiny ? 0.25 * world->size : 1.0;

@@ -33,7 +33,7 @@ static QiFrame frame_of(const Bezier *s) {
 }
 
 // A part of [low, high], from all of it to a millionth.
-static void part(Rng *rng, double low, double high, double *from, double *to) {
+static void part_of(Rng *rng, double low, double high, double *from, double *to) {
     double width = (high - low) * pow(10.0, -6.0 * rng_unit(rng));
     *from = low + rng_unit(rng) * (high - low - width);
     *to = fmin(*from + width, high);
@@ -41,12 +41,14 @@ static void part(Rng *rng, double low, double high, double *from, double *to) {
 
 static void check_part(Rng *rng, const QiLocal *local, const Bezier *s) {
     BezierRect r, over = local->over;
-    part(rng, over.u0, over.u1, &r.u0, &r.u1);
-    part(rng, over.v0, over.v1, &r.v0, &r.v1);
+    part_of(rng, over.u0, over.u1, &r.u0, &r.u1);
+    part_of(rng, over.v0, over.v1, &r.v0, &r.v1);
+    QiLocalPart part;
+    qi_local_part(local, r, &part);
     for (int k = 0; k < 3; k++) {
         Bezier cubic = {.du = 3, .dv = 3};
         double net[16], rest;
-        qi_local_cut(local, r, k, net, &rest);
+        qi_local_cut(local, &part, k, net, &rest);
         for (int n = 0; n < 16; n++)
             cubic.p[n] = vec3(net[n], 0.0, 0.0);
         for (int n = 0; n < 8; n++) {
@@ -73,8 +75,8 @@ static void bounds_hold(void **state) {
         Bezier s, cut;
         sheet(&rng, 1 + (int)(rng_next(&rng) % 16), 1 + (int)(rng_next(&rng) % 16), &s);
         BezierRect over;
-        part(&rng, 0.0, 1.0, &over.u0, &over.u1);
-        part(&rng, 0.0, 1.0, &over.v0, &over.v1);
+        part_of(&rng, 0.0, 1.0, &over.u0, &over.u1);
+        part_of(&rng, 0.0, 1.0, &over.v0, &over.v1);
         bezier_restrict(&s, over, &cut);
         QiNet net;
         for (int n = 0; n < bezier_count(&cut); n++) {
@@ -106,8 +108,11 @@ static void rest_is_small(void **state) {
     QiLocal local;
     qi_local_init(&local, &frame, s.du, s.dv, &net, bezier_whole());
     double out[16], rest, wide;
-    qi_local_cut(&local, (BezierRect){0.5, 0.5 + 0x1p-6, 0.25, 0.25 + 0x1p-6}, 2, out, &rest);
-    qi_local_cut(&local, (BezierRect){0.5, 0.5 + 0x1p-5, 0.25, 0.25 + 0x1p-5}, 2, out, &wide);
+    QiLocalPart part;
+    qi_local_part(&local, (BezierRect){0.5, 0.5 + 0x1p-6, 0.25, 0.25 + 0x1p-6}, &part);
+    qi_local_cut(&local, &part, 2, out, &rest);
+    qi_local_part(&local, (BezierRect){0.5, 0.5 + 0x1p-5, 0.25, 0.25 + 0x1p-5}, &part);
+    qi_local_cut(&local, &part, 2, out, &wide);
     assert_true(rest < 1e-3);
     assert_true(wide > 15.0 * rest && wide < 17.0 * rest);
 }

@@ -69,16 +69,18 @@ typedef struct {
     double wu, wv;     // uncertainty of nu, nv
     bool single;       // at most one root in X
     double by_u, by_v; // how much of what stands against that comes from X's size in u, v
+    bool blind;        // rounding hides more of X than it bends: smaller parts are as blind
 } Bounds;
 
 static inline Bounds bound(const PatchRay *ray, const Piece *piece, const Point *p, double hu,
                            double hv) {
     double muu = (double)piece->muu, muv = (double)piece->muv, mvv = (double)piece->mvv;
-    double rest = 0.5 * (muu * hu * hu + mvv * hv * hv) + muv * hu * hv + ray->error;
+    double bend = 0.5 * (muu * hu * hu + mvv * hv * hv) + muv * hu * hv, rest = bend + ray->error;
     double l1 = vec_length(p->m1), l2 = vec_length(p->m2), lr = length1(p->r);
     double slope = slope_error(ray);
     double alpha = muu * hu + muv * hv + slope, beta = muv * hu + mvv * hv + slope;
-    Bounds b = {.det_error = det_error(ray, p),
+    Bounds b = {.blind = bend < ray->error,
+                .det_error = det_error(ray, p),
                 .wu = rest * l1 + U16 * lr * length1(p->sv),
                 .wv = rest * l2 + U16 * lr * length1(p->su)};
     b.by_u = hu * (muu * l1 + muv * l2);
@@ -150,7 +152,7 @@ static bool search_qi(Walk *walk, BezierRect rect) {
 }
 
 // What to do with a rectangle that has been looked at.
-typedef enum { PART_DONE, PART_SHRUNK, PART_STUCK, PART_STOP } Part;
+typedef enum { PART_DONE, PART_SHRUNK, PART_STUCK, PART_BLIND, PART_STOP } Part;
 
 // A look at *rect: it shrinks to where roots may be, and the only root is taken. home: the part of
 // the piece that *rect shrank from, which Newton does not leave. *across_u: were it to be cut, so.
@@ -181,7 +183,7 @@ static inline Part look_at(Walk *walk, const Piece *piece, BezierRect home, Bezi
                          clamp(p.u + a.high + 0x1p-53, rect->u0, rect->u1),
                          clamp(p.v + b.low - 0x1p-53, rect->v0, rect->v1),
                          clamp(p.v + b.high + 0x1p-53, rect->v0, rect->v1)};
-    return kept < 0.5 ? PART_SHRUNK : PART_STUCK;
+    return kept < 0.5 ? PART_SHRUNK : of.blind ? PART_BLIND : PART_STUCK;
 }
 
 static inline BezierRect rect_union(BezierRect a, BezierRect b) {
@@ -195,7 +197,8 @@ static inline BezierRect rect_union(BezierRect a, BezierRect b) {
 // What does not shrink is cut in half, which is cheaper than to ask qi; but of all crossings qi
 // tells those apart that are close to each other.
 static bool search_rect(Walk *walk, const Piece *piece, BezierRect rect) {
-    const bool cuts = walk->query->kind != QUERY_ALL;
+    // A look at a patch of high degree costs more than qi's step.
+    const bool cuts = walk->query->kind != QUERY_ALL && walk->ray.patch->cubic;
     struct {
         BezierRect home, rect;
     } parts[SEARCH_DEPTH + 1];
@@ -215,7 +218,7 @@ static bool search_rect(Walk *walk, const Piece *piece, BezierRect rect) {
         parts[count - 1].rect = at;
         if (part == PART_SHRUNK)
             continue;
-        if (!cuts || count > SEARCH_DEPTH)
+        if (!cuts || part == PART_BLIND || count > SEARCH_DEPTH)
             break;
         BezierRect low = at, high = at;
         if (across_u)

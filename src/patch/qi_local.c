@@ -27,16 +27,19 @@ static double falling(int d, int factors) {
     return product;
 }
 
-// The largest j-th differences along the rows of a net, which is used up.
+// The largest j-th differences along the rows of a net, which is used up. By column first, so that
+// the loops vectorise.
 static double largest_along_rows(double *net, int rows, int row, int j) {
-    double most = 0.0;
+    double columns[LINE] = {0.0}, most = 0.0;
     for (int i = 0; i < rows; i++, net += row) {
         for (int n = 1; n <= j; n++)
             for (int m = 0; m < row - n; m++)
                 net[m] = net[m + 1] - net[m];
         for (int m = 0; m < row - j; m++)
-            most = larger(most, fabs(net[m]));
+            columns[m] = larger(columns[m], fabs(net[m]));
     }
+    for (int m = 0; m < row - j; m++)
+        most = larger(most, columns[m]);
     return most;
 }
 
@@ -106,15 +109,20 @@ static void taylor_weights(int d, double c, double h, double *weights) {
             weights[4 * i + order] = 0.0;
 }
 
-void qi_local_cut(const QiLocal *q, BezierRect rect, int coordinate, double out[16], double *rest) {
+void qi_local_part(const QiLocal *q, BezierRect rect, QiLocalPart *part) {
+    double width = q->over.u1 - q->over.u0, height = q->over.v1 - q->over.v0;
+    part->hu = 0.5 * (rect.u1 - rect.u0) / width;
+    part->hv = 0.5 * (rect.v1 - rect.v0) / height;
+    taylor_weights(q->du, (rect.u0 - q->over.u0) / width + part->hu, part->hu, part->u);
+    taylor_weights(q->dv, (rect.v0 - q->over.v0) / height + part->hv, part->hv, part->v);
+}
+
+void qi_local_cut(const QiLocal *q, const QiLocalPart *part, int coordinate, double out[16],
+                  double *rest) {
     int du = q->du, dv = q->dv;
     const double *p = coordinate == 0 ? q->net.x : coordinate == 1 ? q->net.y : q->net.z;
-    double width = q->over.u1 - q->over.u0, height = q->over.v1 - q->over.v0;
-    double hu = 0.5 * (rect.u1 - rect.u0) / width, hv = 0.5 * (rect.v1 - rect.v0) / height;
-    double cu = (rect.u0 - q->over.u0) / width + hu, cv = (rect.v0 - q->over.v0) / height + hv;
-    double wu[4 * LINE], wv[4 * LINE], t[4][4] = {{0.0}};
-    taylor_weights(du, cu, hu, wu);
-    taylor_weights(dv, cv, hv, wv);
+    const double *wu = part->u, *wv = part->v;
+    double hu = part->hu, hv = part->hv, t[4][4] = {{0.0}};
     for (int i = 0; i <= du; i++, p += dv + 1) {
         double row[4] = {0.0};
         for (int j = 0; j <= dv; j++)

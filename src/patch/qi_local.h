@@ -22,10 +22,18 @@ bool qi_local_pays(int du, int dv);
 void qi_local_init(QiLocal *local, const QiFrame *frame, int du, int dv, const QiNet *net,
                    BezierRect over);
 
-// One coordinate (0, 1, 2: x, y, z) over rect, a part of `over`: out gets 16 control points, and
-// rest what they may be off by, rounding included. The derivatives along both of the part's own
-// parameters, taken together, are off by 8 rest at most.
-void qi_local_cut(const QiLocal *local, BezierRect rect, int coordinate, double out[16],
+// A part of `over`: its half sizes there, and weights of the control points.
+typedef struct {
+    double hu, hv;
+    double u[4 * (BEZIER_MAX_DEGREE + 1)], v[4 * (BEZIER_MAX_DEGREE + 1)];
+} QiLocalPart;
+
+void qi_local_part(const QiLocal *local, BezierRect rect, QiLocalPart *part);
+
+// One coordinate (0, 1, 2: x, y, z) over the part: out gets 16 control points, and rest what they
+// may be off by, rounding included. The derivatives along both of the part's own parameters, taken
+// together, are off by 8 rest at most.
+void qi_local_cut(const QiLocal *local, const QiLocalPart *part, int coordinate, double out[16],
                   double *rest);
 
 #endif

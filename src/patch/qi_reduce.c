@@ -364,14 +364,12 @@ static inline bool finish_singular(Search *q, int count, const Piece *p, bool le
     return true;
 }
 
-static inline void halve(const BezierRect *rect, bool along_u, bool low_first, Rest *rest) {
-    BezierRect half[2] = {*rect, *rect};
-    if (along_u)
-        half[0].u1 = half[1].u0 = 0.5 * (rect->u0 + rect->u1);
-    else
-        half[0].v1 = half[1].v0 = 0.5 * (rect->v0 + rect->v1);
-    rest->rect = half[low_first ? 0 : 1];
-    rest->later = half[low_first ? 1 : 0];
+static inline double width_of(BezierRect r, bool along_u) {
+    return along_u ? r.u1 - r.u0 : r.v1 - r.v0;
+}
+
+static inline bool is_least(BezierRect r, bool along_u) {
+    return width_of(r, along_u) <= LEAST_WIDTH;
 }
 
 // A width at its least counts as not shrinking, so that each such step halves what can shrink.
@@ -389,10 +387,6 @@ static inline bool shrank(const Piece *p) {
 static inline bool nearer(int du, int dv, const Piece *p, bool along_u) {
     return nearer_low(along_u, p->regular, p->forms[0], trend_u(p->net.z, du, dv),
                       trend_v(p->net.z, du, dv));
-}
-
-static inline double width_of(BezierRect r, bool along_u) {
-    return along_u ? r.u1 - r.u0 : r.v1 - r.v0;
 }
 
 // Clips a piece of a singular J by its bend: STEP_DONE if nothing is left, STEP_BOTH if *rest has
@@ -422,6 +416,23 @@ static inline Step bend_piece(const QiFrame *frame, int du, int dv, Piece *p, Re
     return STEP_AGAIN;
 }
 
+// Halves what is left of a piece, across the direction that is longer as the ray sees it.
+static inline void halve_left(const QiTarget *target, int du, int dv, const Piece *p, Rest *rest) {
+    double along_u, along_v;
+    lengths(target, &p->net, du, dv, &along_u, &along_v);
+    along_u *= p->u.high - p->u.low;
+    along_v *= p->v.high - p->v.low;
+    bool across_u = is_least(p->left, false) || (!is_least(p->left, true) && along_u >= along_v);
+    BezierRect half[2] = {p->left, p->left};
+    if (across_u)
+        half[0].u1 = half[1].u0 = 0.5 * (p->left.u0 + p->left.u1);
+    else
+        half[0].v1 = half[1].v0 = 0.5 * (p->left.v0 + p->left.v1);
+    bool low_first = nearer(du, dv, p, across_u);
+    rest->rect = half[low_first ? 0 : 1];
+    rest->later = half[low_first ? 1 : 0];
+}
+
 static inline Step step_of(Search *q, BezierRect rect, int du, int dv, Rest *rest) {
     Piece p;
     p.rect = rect;
@@ -430,9 +441,7 @@ static inline Step step_of(Search *q, BezierRect rect, int du, int dv, Rest *res
     rest->rect = p.left;
     if ((q->poles && qi_pole_settle(&q->target, q->poles, &p.net, rect)) || finish_single(q, &p))
         return STEP_DONE;
-    bool least_u = p.left.u1 - p.left.u0 <= LEAST_WIDTH,
-         least_v = p.left.v1 - p.left.v0 <= LEAST_WIDTH;
-    bool least = least_u && least_v;
+    bool least = is_least(p.left, true) && is_least(p.left, false);
     if (!least && shrank(&p))
         return STEP_AGAIN;
     if (finish_singular(q, (du + 1) * (dv + 1), &p, least))
@@ -444,16 +453,9 @@ static inline Step step_of(Search *q, BezierRect rect, int du, int dv, Rest *res
         rest->rect = p.left;
         if (shrank(&p))
             return STEP_AGAIN;
-        least_u = p.left.u1 - p.left.u0 <= LEAST_WIDTH;
-        least_v = p.left.v1 - p.left.v0 <= LEAST_WIDTH;
     }
 
-    double along_u, along_v;
-    lengths(&q->target, &p.net, du, dv, &along_u, &along_v);
-    along_u *= p.u.high - p.u.low;
-    along_v *= p.v.high - p.v.low;
-    bool across_u = least_v || (!least_u && along_u >= along_v);
-    halve(&p.left, across_u, nearer(du, dv, &p, across_u), rest);
+    halve_left(&q->target, du, dv, &p, rest);
     return STEP_BOTH;
 }
 
@@ -470,11 +472,13 @@ static Step step_local(Search *q, BezierRect rect, Rest *rest) {
     Piece p;
     p.rect = rect;
     q->steps++;
-    qi_local_cut(&q->local, rect, 0, p.net.x, &frame.slack_x);
-    qi_local_cut(&q->local, rect, 1, p.net.y, &frame.slack_y);
+    QiLocalPart part;
+    qi_local_part(&q->local, rect, &part);
+    qi_local_cut(&q->local, &part, 0, p.net.x, &frame.slack_x);
+    qi_local_cut(&q->local, &part, 1, p.net.y, &frame.slack_y);
     if (!read_off(target, &frame, 3, 3, &p))
         return STEP_DONE;
-    qi_local_cut(&q->local, rect, 2, p.net.z, &frame.slack_z);
+    qi_local_cut(&q->local, &part, 2, p.net.z, &frame.slack_z);
     if (!depths_count(target, frame.slack_z, &p, 16))
         return STEP_DONE;
     for (int k = 0; k < 2; k++)
@@ -487,7 +491,18 @@ static Step step_local(Search *q, BezierRect rect, Rest *rest) {
             return step;
     }
     rest->rect = p.left;
-    return shrank(&p) ? STEP_AGAIN : STEP_HERE;
+    if (shrank(&p))
+        return STEP_AGAIN;
+    if (is_least(p.left, true) && is_least(p.left, false))
+        return STEP_HERE;
+    // The true net would not do better where the remainders are far larger than the rest.
+    for (int k = 0; k < 2; k++) {
+        const Span *span = &p.bounds[k].span;
+        if (!(span->high - span->low > 16.0 * form_slack(p.forms[k], &frame)))
+            return STEP_HERE;
+    }
+    halve_left(target, 3, 3, &p, rest);
+    return STEP_BOTH;
 }
 
 static Step step_any(Search *q, BezierRect r, Rest *rest) {

@@ -8,13 +8,9 @@
 #include "ray_oracle_fine.h"
 #include "ray_oracle_set.h"
 
-#include "base/diag.h"
-
-#include <stdlib.h>
-
 enum {
     QUICK_DEPTH = 44,  // halvings of one cell
-    EXACT_DEPTH = 200, // __float128 has 113 bits each way
+    EXACT_DEPTH = 120, // __float128 has 113 bits
     QUICK_BUDGET = 200,
     FINE_BUDGET = 1000,
     FINE_PARTS = 200, // of one patch
@@ -51,6 +47,7 @@ typedef struct {
     const Ray *ray;
     const View *view;
     const RayOracleRange *range;
+    RayOraclePrecision precision;
     int nu, nv;
     double growth; // (1 + 2 MARGIN)^(nu + nv)
     RayOracle *out;
@@ -152,6 +149,7 @@ static void note_cell(Task *task, double u, double v, double wu, double wv) {
 #include "ray_oracle_cells.h"
 
 static _Thread_local quick_Cell quick_cells[QUICK_DEPTH];
+static _Thread_local exact_Cell exact_cells[EXACT_DEPTH];
 // The whole patch, projected.
 static _Thread_local exact_Cell exact_whole;
 
@@ -396,7 +394,7 @@ static void restrict_finely(const Task *task, const FineNet *from, const OpenCel
 }
 
 // The whole place as a cell in double: x and y scaled to at most 1, z less what it is at a corner.
-// False: the fine numbers err so much that double is as good as it gets.
+// False: the fine numbers err so much that nothing can be told in it.
 static bool cell_of_net(Task *task, const FineNet *net, quick_Cell *cell) {
     int count = (task->nu + 1) * (task->nv + 1);
     double error[2];
@@ -429,7 +427,7 @@ static bool cell_of_net(Task *task, const FineNet *net, quick_Cell *cell) {
     cell->u = cell->v = 0.0;
     cell->wu = cell->wv = 1.0;
     set_range(task);
-    return error[0] < 0x1p-48 && error[1] < 0x1p-48;
+    return error[0] < 0x1p-12 && error[1] < 0x1p-12;
 }
 
 // Open cells that touch become one part, unless it is much larger than they are.
@@ -454,10 +452,7 @@ static void search_exactly(Task *task, const Part *part) {
     if (!task->projected)
         project_exactly(task);
     task->projected = true;
-    // Megabytes, and seldom needed: too much for every thread to have.
-    exact_Cell *c = malloc(EXACT_DEPTH * sizeof *c);
-    if (!c)
-        die("out of memory");
+    exact_Cell *c = &exact_cells[0];
     size_t size = sizeof c->p[0][0] * (size_t)((task->nu + 1) * (task->nv + 1));
     for (int m = 0; m < 4; m++)
         memcpy(c->p[m], exact_whole.p[m], size);
@@ -471,9 +466,19 @@ static void search_exactly(Task *task, const Part *part) {
     set_range(task);
     task->last = true;
     task->budget = task->exact_parts++ < EXACT_PARTS ? EXACT_BUDGET : 0;
-    exact_search_first(task, c, EXACT_DEPTH);
+    exact_search_first(task, exact_cells, EXACT_DEPTH);
     task->last = false;
-    free(c);
+}
+
+// The part at hand is beyond the fine numbers.
+static void leave_part(Task *task, const Part *part) {
+    if (task->precision == ORACLE_EXACT) {
+        search_exactly(task, part);
+        return;
+    }
+    task->last = true;
+    quick_leave_open(task, &quick_cells[0]);
+    task->last = false;
 }
 
 // Cells of the part that net tells.
@@ -483,25 +488,23 @@ static void search_finely(Task *task, const FineNet *net, const Part *part, Open
     for (int n = 0; n < count; n++) {
         FineNet own;
         Part where = part_of(part, &cells[n]);
-        bool deep = level == FINE_LEVELS || task->fine_parts++ >= FINE_PARTS;
-        if (!deep) {
-            restrict_finely(task, net, &cells[n], &own);
-            task->place = (Place){.u = (Real)where.u,
-                                  .v = (Real)where.v,
-                                  .wu = (Real)where.wu,
-                                  .wv = (Real)where.wv,
-                                  .unit = task->fine_unit};
-            deep = !cell_of_net(task, &own, &quick_cells[0]);
-        }
-        if (deep) {
-            search_exactly(task, &where);
+        restrict_finely(task, net, &cells[n], &own);
+        task->place = (Place){.u = (Real)where.u,
+                              .v = (Real)where.v,
+                              .wu = (Real)where.wu,
+                              .wv = (Real)where.wv,
+                              .unit = task->fine_unit};
+        if (!cell_of_net(task, &own, &quick_cells[0]) || level == FINE_LEVELS ||
+            task->fine_parts++ >= FINE_PARTS) {
+            leave_part(task, &where);
             continue;
         }
         task->cell_count = 0;
         task->budget = FINE_BUDGET;
         quick_search_first(task, quick_cells, QUICK_DEPTH);
         if (task->cell_count > OPEN_CELLS) {
-            search_exactly(task, &where);
+            cell_of_net(task, &own, &quick_cells[0]);
+            leave_part(task, &where);
         } else if (task->cell_count > 0) {
             OpenCell open[OPEN_CELLS];
             memcpy(open, task->cells, sizeof open);
@@ -510,7 +513,10 @@ static void search_finely(Task *task, const FineNet *net, const Part *part, Open
     }
 }
 
+// What the quick search has left open.
 static void search_open(Task *task) {
+    if (task->cell_count == 0 || task->precision == ORACLE_QUICK)
+        return;
     FineNet net;
     OpenCell open[OPEN_CELLS] = {{.wu = 1.0, .wv = 1.0}};
     const Part whole = {.wu = 1, .wv = 1};
@@ -524,7 +530,7 @@ static void search_open(Task *task) {
 // ---- Patches
 
 // False: the patch lies aside.
-static bool begin(Task *task, const OraclePatch *patch, int number, bool last, Corner *corner) {
+static bool begin(Task *task, const OraclePatch *patch, int number, Corner *corner) {
     const View *view = task->view;
     task->def = patch->def;
     task->nu = (int)patch->def->degree_u;
@@ -536,7 +542,7 @@ static bool begin(Task *task, const OraclePatch *patch, int number, bool last, C
     task->first = task->out->count;
     task->cell_count = task->fine_parts = task->exact_parts = 0;
     task->projected = false;
-    task->last = last;
+    task->last = task->precision == ORACLE_QUICK;
     task->budget = QUICK_BUDGET;
     if (!corner_of(view, patch, task->ray, corner))
         return false;
@@ -556,20 +562,19 @@ void ray_oracle_search(RayOracle *oracle, const RayOracleSet *set, const Ray *ra
     int patch, current = -1;
     bool met = false;
     task.ray = ray, task.view = &view, task.range = &range, task.out = oracle;
+    task.precision = precision;
     task.cell_count = 0;
     oracle_walk_begin(&walk, set, ray, range.t0, range.t1, 0.0);
     while (oracle_walk_next(&walk, &patch, &leaf)) {
         if (patch != current) {
-            if (task.cell_count > 0 && precision == ORACLE_EXACT)
-                search_open(&task);
-            met = begin(&task, &set->patches[patch], patch, precision == ORACLE_QUICK, &corner);
+            search_open(&task);
+            met = begin(&task, &set->patches[patch], patch, &corner);
             current = patch;
         }
         if (met)
             search_leaf(&task, &corner, leaf);
     }
-    if (task.cell_count > 0 && precision == ORACLE_EXACT)
-        search_open(&task);
+    search_open(&task);
 }
 
 void ray_oracle_find(RayOracle *oracle, const PatchDef *def, const Ray *ray,
@@ -583,11 +588,11 @@ void ray_oracle_find(RayOracle *oracle, const PatchDef *def, const Ray *ray,
     double net[4 * ORACLE_POINTS];
     oracle_patch_whole(def, &patch, &whole, net);
     task.ray = ray, task.view = &view, task.range = &range, task.out = oracle;
-    if (!begin(&task, &patch, 0, precision == ORACLE_QUICK, &corner))
+    task.precision = precision;
+    if (!begin(&task, &patch, 0, &corner))
         return;
     search_leaf(&task, &corner, &whole);
-    if (task.cell_count > 0 && precision == ORACLE_EXACT)
-        search_open(&task);
+    search_open(&task);
     for (int k = task.first; k < oracle->count; k++)
         ray_oracle_sine(&oracle->root[k], def, ray);
 }

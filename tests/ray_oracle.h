@@ -35,7 +35,8 @@ typedef struct {
 
 typedef enum {
     ORACLE_QUICK, // double; rough about what rounding hides
-    ORACLE_EXACT, // as far as __float128 goes
+    ORACLE_FINE,  // as far as 106 bits go
+    ORACLE_EXACT, // as far as __float128 does
 } RayOraclePrecision;
 
 // Patches made ready for many rays, in the arena; defs must stay.
@@ -66,8 +67,7 @@ void ray_oracle(RayOracle *oracle, const PatchDef *def, const Ray *ray, double t
 // Do the patches, taken together, come within `reach` of the ray at every depth between t0 and t1,
 // give or take `reach` in depth as well?
 // Answered for 16 steps of depth. False as well when that takes too long.
-bool ray_oracle_near(const PatchDef *defs, int count, const Ray *ray, double t0, double t1,
-                     double reach);
+bool ray_oracle_near(const RayOracleSet *set, const Ray *ray, double t0, double t1, double reach);
 
 // The same, shown by a way on one patch from (u0,v0) to (u1,v1): does it stay within `reach` of the
 // ray? Answered for 32 steps. False: no such way is known.

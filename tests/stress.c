@@ -217,13 +217,14 @@ static void leave(const Stage *stage, int method, const StressRay *r, uint64_t r
     StressRay next = {.ray = {vec_madd(r->ray.org, a.hit.t, r->ray.dir), r->onward},
                       .t_max = INFINITY};
     next.t_min = patch_clearance(def, &a.hit, &next.ray);
+    PatchHit left = a.hit;
     double reach = a.hit.bound + 8.0 * 0x1p-52 * vec_length(next.ray.org);
     StressTruth truth;
     stress_truth_init(&truth, &stage->scene, &next);
     answer(stage, method, &next, ray, &a);
     StressVerdict verdict = stress_judge(stage->which, (PatchMethod)method, &truth, &a);
     if (verdict == STRESS_FINE && !stress_is_triangles((PatchMethod)method))
-        verdict = stress_judge_left(&a, &truth, reach);
+        verdict = stress_judge_left(&a, &truth, &left, reach);
     record(stage, method, &next, ray, verdict, &a, &truth);
 }
 

@@ -25,7 +25,7 @@ void stress_truth_init(StressTruth *truth, const StressScene *scene, const Stres
 static double length_of(Vec3 a) { return hypot(a.x, hypot(a.y, a.z)); }
 
 static void find(StressTruth *truth, RayOraclePrecision precision, RayOracleRange range) {
-    int level = precision == ORACLE_QUICK ? 1 : 2;
+    int level = 1 + (int)precision;
     if (truth->made >= level && truth->range.t0 <= range.t0 && truth->range.t1 >= range.t1)
         return;
     truth->made = level;
@@ -120,8 +120,8 @@ static bool near_between(const StressTruth *truth, const PatchHit *hit, int k, d
     if ((int)hit->id == truth->oracle.root[k].patch &&
         ray_oracle_way(&truth->scene->defs[hit->id], &truth->ray->ray, from, to, 4.0 * bound))
         return true;
-    return ray_oracle_near(truth->scene->defs, truth->scene->count, &truth->ray->ray,
-                           fmin(c->t, hit->t), fmax(c->t, hit->t), 4.0 * bound);
+    return ray_oracle_near(truth->scene->oracle, &truth->ray->ray, fmin(c->t, hit->t),
+                           fmax(c->t, hit->t), 4.0 * bound);
 }
 
 typedef struct {
@@ -225,22 +225,55 @@ static bool accounts(const Trial *trial, const PatchHit *hit, int k, bool far) {
     return near_between(truth, hit, k, bound_at(trial, NULL, c->patch));
 }
 
-static StressVerdict judge_all(const Trial *trial) {
+// Whatever crossings there are in what was left open: would they all be a hit that is known, or
+// outside of the range?
+static bool accounted(const Trial *trial, int k) {
+    StressTruth *truth = trial->truth;
+    const StressRay *r = truth->ray;
+    const StressAnswer *a = trial->answer;
+    const RayOracleRoot *c = &truth->oracle.root[k];
+    RayOracleRoot one = *c; // of them: all of the uncertainty of t has to fit
+    one.dt = 0.0;
+    double slack = slack_for(&one, share_of(trial, c->patch), &r->ray, 1.0) - c->dt;
+    bool found = c->t - slack < r->t_min || c->t + slack >= r->t_max;
+    for (int i = 0; !found && i < a->count; i++) {
+        const PatchHit *hit = &a->all[i];
+        if ((int)hit->id == c->patch && !stress_is_triangles(trial->method))
+            found = fabs(hit->t - c->t) + c->dt <= slack_for(&one, hit->bound, &r->ray, 1.0);
+    }
+    return found;
+}
+
+// Is there a hit for each crossing?
+static StressVerdict judge_lost(const Trial *trial) {
+    const StressAnswer *a = trial->answer;
+    StressTruth *truth = trial->truth;
+    for (RayOraclePrecision level = ORACLE_QUICK; level <= ORACLE_EXACT; level++) {
+        find(truth, level, everywhere);
+        bool open = false;
+        for (int k = 0; k < truth->oracle.count; k++) {
+            if (truth->oracle.root[k].kind != ROOT_CERTAIN) {
+                open |= !accounted(trial, k);
+                continue;
+            }
+            bool found = !surely_in_range(trial, k);
+            for (int far = 0; far < 2; far++)
+                for (int i = 0; !found && i < a->count; i++)
+                    found = accounts(trial, &a->all[i], k, far);
+            if (!found)
+                return STRESS_LOST;
+        }
+        if (!open)
+            break;
+    }
+    return STRESS_FINE;
+}
+
+// Two hits in one place?
+static StressVerdict judge_twice(const Trial *trial) {
     const StressAnswer *a = trial->answer;
     StressTruth *truth = trial->truth;
     const RayOracle *o = &truth->oracle;
-    find(truth, ORACLE_QUICK, everywhere);
-    if (o->open)
-        find(truth, ORACLE_EXACT, everywhere);
-    for (int k = 0; k < o->count; k++) {
-        const RayOracleRoot *c = &o->root[k];
-        bool found = c->kind != ROOT_CERTAIN || !surely_in_range(trial, k);
-        for (int far = 0; far < 2; far++)
-            for (int i = 0; !found && i < a->count; i++)
-                found = accounts(trial, &a->all[i], k, far);
-        if (!found)
-            return STRESS_LOST;
-    }
     double length = length_of(truth->ray->ray.dir);
     for (int i = 0; i < a->count; i++) {
         for (int j = 0; j < i; j++) {
@@ -317,16 +350,18 @@ StressVerdict stress_judge(const StressCase *which, PatchMethod method, StressTr
     if (answer->found != answer->any && !truth->open)
         return STRESS_DIFFER;
     if (answer->has_all && expect == EXPECT_TRUTH)
-        return judge_all(&trial);
-    return STRESS_FINE;
+        verdict = judge_lost(&trial);
+    if (answer->has_all && expect == EXPECT_TRUTH && verdict == STRESS_FINE)
+        verdict = judge_twice(&trial);
+    return verdict;
 }
 
-StressVerdict stress_judge_left(const StressAnswer *answer, StressTruth *truth, double reach) {
+StressVerdict stress_judge_left(const StressAnswer *answer, StressTruth *truth,
+                                const PatchHit *left, double reach) {
     const StressRay *r = truth->ray;
     const StressScene *s = truth->scene;
     // The same surface, as far as the bound of the hit that was left can tell?
-    if (answer->found &&
-        ray_oracle_near(s->defs, s->count, &r->ray, 0.0, answer->hit.t, 0.5 * reach))
+    if (answer->found && ray_oracle_near(s->oracle, &r->ray, 0.0, answer->hit.t, 0.5 * reach))
         return STRESS_FALSE;
     // What was left out before t_min must have been that surface.
     RayOracleRange range = {16.0 * reach / length_of(r->ray.dir), r->t_min};
@@ -335,9 +370,12 @@ StressVerdict stress_judge_left(const StressAnswer *answer, StressTruth *truth, 
     find(truth, ORACLE_QUICK, range);
     for (int k = 0; k < truth->oracle.count; k++) {
         const RayOracleRoot *c = &truth->oracle.root[k];
-        if (c->kind == ROOT_CERTAIN && c->t < r->t_min &&
-            c->t * length_of(r->ray.dir) > 16.0 * reach &&
-            !ray_oracle_near(s->defs, s->count, &r->ray, 0.0, c->t, 16.0 * reach))
+        if (c->kind != ROOT_CERTAIN || c->t >= r->t_min || !(c->t > range.t0))
+            continue;
+        const double from[2] = {left->u, left->v}, to[2] = {c->u, c->v};
+        if (!((int)left->id == c->patch &&
+              ray_oracle_way(&s->defs[c->patch], &r->ray, from, to, 16.0 * reach)) &&
+            !ray_oracle_near(s->oracle, &r->ray, 0.0, c->t, 16.0 * reach))
             return STRESS_MISSED;
     }
     return STRESS_FINE;

@@ -60,7 +60,7 @@ typedef struct {
 typedef struct {
     const StressScene *scene;
     const StressRay *ray;
-    int made;             // 0: not yet, 1: quickly, 2: exactly
+    int made;             // 0: not yet, else 1 + the precision
     RayOracleRange range; // of the depths at which they are known
     RayOracle oracle;
     bool open; // a decision was left open
@@ -69,8 +69,9 @@ typedef struct {
 void stress_truth_init(StressTruth *truth, const StressScene *scene, const StressRay *ray);
 StressVerdict stress_judge(const StressCase *which, PatchMethod method, StressTruth *truth,
                            const StressAnswer *answer);
-// Of a ray that began on the surface: reach is the bound of the hit that it left.
-StressVerdict stress_judge_left(const StressAnswer *answer, StressTruth *truth, double reach);
+// Of a ray that began at the hit `left`: reach is its bound.
+StressVerdict stress_judge_left(const StressAnswer *answer, StressTruth *truth,
+                                const PatchHit *left, double reach);
 void stress_truth_print(StressTruth *truth);
 
 #endif

@@ -165,6 +165,8 @@ static void prepared_ribbons(void **state) {
         bezier_init(&s, 3, 3, found->points);
         PatchDef def = {.degree_u = 3, .degree_v = 3, .points = found->points, .mask = UINT32_MAX};
         PatchSet *set = set_of(&def);
+        Arena *arena = arena_create();
+        const RayOracleSet *oracle = ray_oracle_prepare(arena, &def, 1);
         QiQuery q = qi_query_default(&s, found->ray);
         QiHit first;
         PatchHit hit;
@@ -172,8 +174,9 @@ static void prepared_ribbons(void **state) {
         assert_true(patchset_intersect(set, &q.ray, 0.0, INFINITY, UINT32_MAX, NULL, &hit));
         assert_true(ray_oracle_residual(&def, &q.ray, hit.t, hit.u, hit.v) <= hit.bound);
         double near = 4.0 * fmax(first.bound, hit.bound);
-        if (hit.t > first.t && !ray_oracle_near(&def, 1, &q.ray, first.t, hit.t, near))
+        if (hit.t > first.t && !ray_oracle_near(oracle, &q.ray, first.t, hit.t, near))
             fail_msg("%s: t %.17g, first %.17g", found->before, hit.t, first.t);
+        arena_destroy(arena);
         patchset_destroy(set);
     }
 }

@@ -310,14 +310,14 @@ static void search_leaf(Task *task, const Corner *corner, const OracleLeaf *leaf
     c->u = c->v = 0.0;
     c->wu = c->wv = 1.0;
     task->place.u = leaf->u, task->place.v = leaf->v;
-    task->place.wu = task->place.wv = leaf->width;
+    task->place.wu = leaf->wu, task->place.wv = leaf->wv;
     int noted = task->cell_count;
     quick_search_first(task, quick_cells, QUICK_DEPTH);
     // As cells of the patch: still exact.
     for (int n = noted; n < task->cell_count && n < OPEN_CELLS; n++) {
         OpenCell *cell = &task->cells[n];
-        *cell = (OpenCell){leaf->u + leaf->width * cell->u, leaf->v + leaf->width * cell->v,
-                           leaf->width * cell->wu, leaf->width * cell->wv};
+        *cell = (OpenCell){leaf->u + leaf->wu * cell->u, leaf->v + leaf->wv * cell->v,
+                           leaf->wu * cell->wu, leaf->wv * cell->wv};
     }
 }
 

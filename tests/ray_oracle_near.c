@@ -244,9 +244,9 @@ static void lay_along(const PatchDef *def, const OracleLeaf *leaf, const Ray *ra
                 p[k] *= def->weights[k];
         }
         for (int j = 0; j <= nv; j++)
-            restrict_line(p + j, nv + 1, nu, leaf->u, leaf->u + leaf->width);
+            restrict_line(p + j, nv + 1, nu, leaf->u, leaf->u + leaf->wu);
         for (int i = 0; i <= nu; i++)
-            restrict_line(p + i * (nv + 1), 1, nv, leaf->v, leaf->v + leaf->width);
+            restrict_line(p + i * (nv + 1), 1, nv, leaf->v, leaf->v + leaf->wv);
     }
 }
 

@@ -98,7 +98,7 @@ static void leaf_of(const Net *net, OracleLeaf *leaf) {
 void oracle_patch_whole(const PatchDef *def, OraclePatch *patch, OracleLeaf *leaf, double *net) {
     Net whole;
     net_of(def, patch, &whole);
-    *leaf = (OracleLeaf){.width = 1.0, .net = net};
+    *leaf = (OracleLeaf){.wu = 1.0, .wv = 1.0, .net = net};
     leaf_of(&whole, leaf);
 }
 
@@ -149,28 +149,66 @@ typedef struct {
     double *nets; // room for those of this patch's leaves
 } Cutter;
 
+// Which direction is longer in space? So a part at a side that is a point is not cut into slices
+// that all contain it, nor a ribbon along its length.
+static bool longer_in_u(const Net *net) {
+    int nu = net->nu, nv = net->nv;
+    Real along_u = 0, along_v = 0;
+    for (int axis = 0; axis < 3; axis++) {
+        const Real *p = net->p[axis];
+        for (int i = 0; i <= nu; i++) {
+            for (int j = 0; j <= nv; j++) {
+                int k = i * (nv + 1) + j;
+                Real du = i > 0 ? nu * fabsl(p[k] - p[k - nv - 1]) : 0;
+                Real dv = j > 0 ? nv * fabsl(p[k] - p[k - 1]) : 0;
+                along_u = du > along_u ? du : along_u;
+                along_v = dv > along_v ? dv : along_v;
+            }
+        }
+    }
+    return along_u >= along_v;
+}
+
+typedef struct {
+    double u, v, wu, wv;
+} Rect;
+
+static void halve_both(Net *low, Net *high, Rect *first, Rect *second) {
+    bool along_u = longer_in_u(low);
+    halve(low, high, along_u);
+    *(along_u ? &first->wu : &first->wv) *= 0.5;
+    *second = *first;
+    if (along_u)
+        second->u += first->wu;
+    else
+        second->v += first->wv;
+}
+
 // Cuts the part into four, and so on for `levels` in all. Returns the node over it. The part is
 // lost.
-static int32_t cut(Cutter *cutter, Net *part, int levels, double u, double v, double width) {
+static int32_t cut(Cutter *cutter, Net *part, int levels, Rect rect) {
     RayOracleSet *set = cutter->set;
     int32_t own = set->node_count++;
     OracleNode *node = &set->nodes[own];
     *node = NO_NODE;
     node->patch = cutter->patch;
     Net other[3], *quarter[4] = {part, &other[0], &other[1], &other[2]};
-    halve(quarter[0], quarter[2], true);
-    halve(quarter[0], quarter[1], false);
-    halve(quarter[2], quarter[3], false);
-    double half = 0.5 * width;
+    Rect rects[4] = {rect};
+    halve_both(quarter[0], quarter[2], &rects[0], &rects[2]);
+    halve_both(quarter[0], quarter[1], &rects[0], &rects[1]);
+    halve_both(quarter[2], quarter[3], &rects[2], &rects[3]);
     for (int k = 0; k < 4; k++) {
-        double u0 = u + (k / 2) * half, v0 = v + (k % 2) * half;
         if (levels > 1) {
-            node->child[k] = cut(cutter, quarter[k], levels - 1, u0, v0, half);
+            node->child[k] = cut(cutter, quarter[k], levels - 1, rects[k]);
             box_over(node, k, &set->nodes[node->child[k]]);
             continue;
         }
         OracleLeaf *leaf = &set->leaves[set->leaf_count];
-        *leaf = (OracleLeaf){.u = u0, .v = v0, .width = half, .net = cutter->nets};
+        *leaf = (OracleLeaf){.u = rects[k].u,
+                             .v = rects[k].v,
+                             .wu = rects[k].wu,
+                             .wv = rects[k].wv,
+                             .net = cutter->nets};
         leaf_of(quarter[k], leaf);
         cutter->nets += (quarter[k]->rational ? 4 : 3) * count_of(quarter[k]);
         box_of(&set->patches[cutter->patch], quarter[k], node, k);
@@ -193,7 +231,7 @@ static int32_t cut_patch(RayOracleSet *set, Arena *arena, int patch) {
     size_t leaves = (size_t)1 << 2 * levels, axes = net.rational ? 4 : 3;
     Cutter cutter = {set, arena, patch,
                      ARENA_ARRAY(arena, double, leaves *axes *(size_t)count_of(&net))};
-    return cut(&cutter, &net, levels, 0.0, 0.0, 1.0);
+    return cut(&cutter, &net, levels, (Rect){0.0, 0.0, 1.0, 1.0});
 }
 
 // ---- All

@@ -11,11 +11,11 @@ typedef long double Real;
 
 enum { ORACLE_SIDE = 17, ORACLE_POINTS = ORACLE_SIDE * ORACLE_SIDE };
 
-// Control points of [u, u + width] x [v, v + width], times the weights: less the patch's corner
-// and scaled, at most 1 in size. They err by ORACLE_NET_ERROR (3 levels of degree 4 or 2 of degree
-// 16 each way, of one rounding to 64 bits a degree, and 3 more) and 2^-53 of their size.
+// Control points of [u, u + wu] x [v, v + wv], times the weights: less the patch's corner and
+// scaled, at most 1 in size. They err by ORACLE_NET_ERROR (6 halvings of degree 4 or 4 of degree
+// 16, of one rounding to 64 bits a degree, and 3 more) and 2^-53 of their size.
 typedef struct {
-    double u, v, width;
+    double u, v, wu, wv;
     double most[3], most_weight; // of the sizes in net
     double *net;                 // x, y, z, weights: each of all points, row by row
 } OracleLeaf;

@@ -191,7 +191,7 @@ static void project_exactly(const Task *task) {
     }
     c->ex = scale_exactly(c->p[0], count, error[0]);
     c->ey = scale_exactly(c->p[1], count, error[1]);
-    c->ez = 3 * (__float128)0x1p-113 * exact_span_of(c->p[2], count).most;
+    c->ez = 3 * (__float128)0x1p-113 * exact_farthest(task, count, c);
 }
 
 // Control points of the part [a,b] of a curve: the blossom of a and b, k times b. In place.
@@ -306,7 +306,8 @@ static void search_leaf(Task *task, const Corner *corner, const OracleLeaf *leaf
     memcpy(c->p[2], leaf->net + view->k * count, sizeof(double) * (size_t)count);
     if (task->def->weights)
         memcpy(c->p[3], leaf->net + 3 * count, sizeof(double) * (size_t)count);
-    c->ez = 1.001 * 0x1p-53 * leaf->most[view->k] + ORACLE_NET_ERROR;
+    double far = task->def->weights ? 1.0 : leaf->most[view->k];
+    c->ez = 1.001 * 0x1p-53 * far + ORACLE_NET_ERROR;
     c->u = c->v = 0.0;
     c->wu = c->wv = 1.0;
     task->place.u = leaf->u, task->place.v = leaf->v;
@@ -412,8 +413,7 @@ static bool cell_of_net(Task *task, const FineNet *net, quick_Cell *cell) {
     const FineGrid *z = &net->grid[2], *w = &net->grid[3];
     double corner = task->def->weights ? z->h[0] / w->h[0] : z->h[0];
     task->place.base = corner;
-    cell->ez = net->error[2] + FINE_UNIT * (fine_most(z, count) + fabs(corner));
-    double most = 0.0;
+    double least = 1.0, error_z = net->error[2] + FINE_UNIT * (fine_most(z, count) + fabs(corner));
     for (int n = 0; n < count; n++) {
         Fine weight = {1.0, 0.0};
         if (task->def->weights)
@@ -421,9 +421,9 @@ static bool cell_of_net(Task *task, const FineNet *net, quick_Cell *cell) {
         Fine off = fine_sub((Fine){z->h[n], z->l[n]}, fine_times(weight, corner));
         cell->p[2][n] = off.h;
         cell->p[3][n] = weight.h;
-        most = fmax(most, fabs(off.h));
+        least = fmin(least, weight.h);
     }
-    cell->ez += 1.001 * 0x1p-53 * most;
+    cell->ez = error_z / least + 1.001 * 0x1p-53 * quick_farthest(task, count, cell);
     cell->u = cell->v = 0.0;
     cell->wu = cell->wv = 1.0;
     set_range(task);
@@ -459,9 +459,14 @@ static void search_exactly(Task *task, const Part *part) {
     c->u = part->u, c->v = part->v, c->wu = part->wu, c->wv = part->wv;
     c->ex = exact_whole.ex + restrict_exactly(task, c->p[0], c);
     c->ey = exact_whole.ey + restrict_exactly(task, c->p[1], c);
-    c->ez = exact_whole.ez + restrict_exactly(task, c->p[2], c);
+    restrict_exactly(task, c->p[2], c);
     if (task->def->weights)
         restrict_exactly(task, c->p[3], c);
+    // Averages of positive weights keep their accuracy.
+    int degrees = task->nu + task->nv;
+    c->ez =
+        exact_whole.ez + 8 * degrees * (__float128)0x1p-113 *
+                             exact_farthest(task, (task->nu + 1) * (task->nv + 1), &exact_whole);
     task->place = (Place){.wu = 1.0L, .wv = 1.0L, .unit = 1.0L};
     set_range(task);
     task->last = true;

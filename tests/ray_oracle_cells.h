@@ -19,7 +19,7 @@
 typedef struct {
     REAL p[4][ORACLE_POINTS]; // x, y, z: depth, times the weights, and the weights (rational only)
     REAL u, v, wu, wv;        // the cell is [u, u + wu] x [v, v + wv]: halvings, so exact
-    REAL ex, ey, ez;
+    REAL ex, ey, ez;          // of x, of y, of z for each unit of the weight
 } NAME(Cell);
 
 typedef struct {
@@ -211,28 +211,37 @@ static inline REAL NAME(residual)(int nu, int nv, const NAME(Map) * map, REAL x,
 
 // ---- Depths
 
-// z of a point of the cell, and its error when the point is uncertain by (rp, rq).
+// The largest size of a depth. Weights are positive.
+static inline REAL NAME(farthest)(const Task *task, int count, const NAME(Cell) * c) {
+    REAL far = 0;
+    if (!task->def->weights)
+        return NAME(span_of)(c->p[2], count).most;
+    for (int k = 0; k < count; k++)
+        far = NAME(max)(NAME(abs)(c->p[2][k] / c->p[3][k]), far);
+    return far;
+}
+
+// Depth (z / weight) at a point of the cell, and its error when the point is uncertain by (rp, rq).
+// With N = sum (z - depth weight) B, which is 0 at the point, and W = sum weight B, it is off by
+// N / W elsewhere; their slopes come from differences, over the cell enlarged by MARGIN.
 static REAL NAME(depth)(const Task *task, const NAME(Cell) * c, REAL p, REAL q, REAL rp, REAL rq,
                         REAL *error) {
     int nu = task->nu, nv = task->nv, count = (nu + 1) * (nv + 1);
-    REAL zu, zv, wu = 0, wv = 0, least = 1;
-    REAL z = NAME(surface)(nu, nv, c->p[2], p, q, &zu, &zv), off = c->ez;
-    off += 8 * (nu + nv) * UNIT * NAME(span_of)(c->p[2], count).most;
-    NAME(steps)(nu, nv, c->p[2], &zu, &zv);
+    REAL off[ORACLE_POINTS], du, dv, w = 1, least = 1, far = NAME(farthest)(task, count, c);
+    REAL z = NAME(surface)(nu, nv, c->p[2], p, q, &du, &dv);
     if (task->def->weights) {
-        REAL none, far = 0;
-        NAME(Span) w = NAME(span_of)(c->p[3], count);
-        NAME(steps)(nu, nv, c->p[3], &wu, &wv);
-        for (int k = 0; k < count; k++)
-            far = NAME(max)(NAME(abs)(c->p[2][k] / c->p[3][k]), far);
-        off += 16 * (nu + nv) * UNIT * far * w.most;
-        z /= NAME(surface)(nu, nv, c->p[3], p, q, &none, &none);
-        least = w.low;
-        zu += far * wu, zv += far * wv;
+        w = NAME(surface)(nu, nv, c->p[3], p, q, &du, &dv);
+        z /= w;
+        NAME(steps)(nu, nv, c->p[3], &du, &dv);
+        least = w - (REAL)task->growth * (nu * du * rp + nv * dv * rq);
+        least = NAME(max)(least, NAME(span_of)(c->p[3], count).low / 2);
     }
-    // z = N / W, N = sum w z B: |N'| and |W'| come from differences. The cell is enlarged by
-    // MARGIN.
-    *error = (off + (REAL)task->growth * (nu * zu * rp + nv * zv * rq)) / least;
+    off[0] = 0;
+    for (int k = 0; k < count; k++)
+        off[k] = c->p[2][k] - z * (task->def->weights ? c->p[3][k] : 1);
+    NAME(steps)(nu, nv, off, &du, &dv);
+    *error = (REAL)task->growth * (nu * du * rp + nv * dv * rq) / least +
+             2 * (c->ez + 16 * (nu + nv) * UNIT * far);
     return z;
 }
 
@@ -254,8 +263,8 @@ static inline bool NAME(elsewhere)(const Task *task, int count, const NAME(Cell)
         return s.low - c->ez > high || s.high + c->ez < low;
     }
     for (int k = 0; k < count; k++) {
-        more += !(z[k] - c->ez > high * w[k] + 4 * UNIT * NAME(abs)(high * w[k]));
-        less += !(z[k] + c->ez < low * w[k] - 4 * UNIT * NAME(abs)(low * w[k]));
+        more += !(z[k] - c->ez * w[k] > high * w[k] + 4 * UNIT * NAME(abs)(high * w[k]));
+        less += !(z[k] + c->ez * w[k] < low * w[k] - 4 * UNIT * NAME(abs)(low * w[k]));
     }
     return more == 0 || less == 0;
 }
@@ -264,20 +273,19 @@ static inline bool NAME(elsewhere)(const Task *task, int count, const NAME(Cell)
 static void NAME(leave_open)(Task *task, const NAME(Cell) * c) {
     const REAL half = (REAL)0.5;
     const Place *at = &task->place;
-    REAL low = 0, high = 0, least = 1;
+    REAL low = 0, high = 0;
     int count = (task->nu + 1) * (task->nv + 1);
     for (int k = 0; k < count; k++) {
         REAL w = task->def->weights ? c->p[3][k] : 1, z = c->p[2][k] / w;
         low = k == 0 || z < low ? z : low;
         high = k == 0 || z > high ? z : high;
-        least = NAME(min)(w, least);
     }
     note_cell(task, (double)c->u, (double)c->v, (double)c->wu, (double)c->wv);
     if (task->last)
         NAME(add)
     (task, at->u + at->wu * (WIDE)(c->u + half * c->wu),
      at->v + at->wv * (WIDE)(c->v + half * c->wv), at->wu * (WIDE)c->wu, at->wv * (WIDE)c->wv,
-     half * (low + high), half * (high - low) + c->ez / least, ROOT_OPEN);
+     half * (low + high), half * (high - low) + c->ez, ROOT_OPEN);
 }
 
 // ---- The search
@@ -372,7 +380,7 @@ static inline void NAME(search)(Task *task, int nu, int nv, NAME(Cell) * stack, 
             top--;
             continue;
         }
-        most[2] = NAME(span_of)(c->p[2], count).most;
+        most[2] = NAME(farthest)(task, count, c);
         NAME(halve)(task, nu, nv, NAME(longer_in_u)(nu, nv, c), most, c, &stack[top]);
         top++;
     }

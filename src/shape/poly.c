@@ -5,49 +5,61 @@
 #include "shape/roots.h"
 #include "shape/solid.h"
 
-#include <string.h>
-
 enum { TERMS = SCENE_MAX_ORDER + 1 };
 
-// p = p * (a + b t) + q; p has `degree` + 1 terms before and one more after, q the same or less.
-static void multiply_add(double *p, int degree, double a, double b, const double *q, int q_degree) {
-    p[degree + 1] = degree >= 0 ? b * p[degree] : 0.0;
-    for (int i = degree; i > 0; i--)
-        p[i] = a * p[i] + b * p[i - 1];
-    if (degree >= 0)
-        p[0] *= a;
-    for (int i = 0; i <= q_degree; i++)
-        p[i] += q[i];
+// A polynomial in the depth; degree -1: it is 0, and p is not set. Most coefficients of the
+// surfaces that people write are 0, so that is asked first.
+typedef struct {
+    double p[TERMS];
+    int degree;
+} Along;
+
+// f = f * (a + b t) + g
+static inline void multiply_add(Along *f, double a, double b, const Along *g) {
+    int n = f->degree;
+    if (n >= 0) {
+        f->p[n + 1] = b * f->p[n];
+        for (int i = n; i > 0; i--)
+            f->p[i] = a * f->p[i] + b * f->p[i - 1];
+        f->p[0] *= a;
+        f->degree = ++n;
+    }
+    for (; n < g->degree; f->degree = n)
+        f->p[++n] = 0.0;
+    for (int i = 0; i <= g->degree; i++)
+        f->p[i] += g->p[i];
 }
 
 // Coefficients in t of the polynomial at org + t dir.
-static void along_ray(const PolyShape *poly, Vec3 org, Vec3 dir, double out[TERMS + 1]) {
+static void along_ray(const PolyShape *poly, Vec3 org, Vec3 dir, double out[TERMS]) {
     const double *next = poly->coefficients;
     int n = poly->order;
-    double x[TERMS + 1], y[TERMS + 1], z[TERMS + 1];
-    memset(x, 0, sizeof x);
+    Along x, y, z, constant;
+    x.degree = -1;
     for (int i = n; i >= 0; i--) {
-        memset(y, 0, sizeof y);
+        y.degree = -1;
         for (int j = n - i; j >= 0; j--) {
-            memset(z, 0, sizeof z);
+            z.degree = -1;
             for (int k = n - i - j; k >= 0; k--) {
-                const double constant = *next++;
-                multiply_add(z, n - i - j - k - 1, org.z, dir.z, &constant, 0);
+                constant.p[0] = *next++;
+                constant.degree = constant.p[0] != 0.0 ? 0 : -1;
+                multiply_add(&z, org.z, dir.z, &constant);
             }
-            multiply_add(y, n - i - j - 1, org.y, dir.y, z, n - i - j);
+            multiply_add(&y, org.y, dir.y, &z);
         }
-        multiply_add(x, n - i - 1, org.x, dir.x, y, n - i);
+        multiply_add(&x, org.x, dir.x, &y);
     }
-    memcpy(out, x, sizeof(double) * (size_t)(n + 1));
+    for (int i = 0; i <= n; i++)
+        out[i] = i <= x.degree ? x.p[i] : 0.0;
 }
 
 static void hits(const void *data, const Ray *ray, HitSink *sink) {
     const PolyShape *poly = data;
-    double c[TERMS + 1], roots[TERMS];
+    double c[TERMS], roots[TERMS];
     double nearest = -vec_dot(ray->org, ray->dir);
     along_ray(poly, vec_madd(ray->org, nearest, ray->dir), ray->dir, c);
     double bound = roots_bound(c, poly->order);
-    double low = fmax(-bound, -nearest);
+    double low = fmax(-bound, fmax(sink->t_min, 0.0) - nearest);
     double high = fmin(bound, fmin(sink->t_max, SHAPE_FARTHEST * sink->scale) - nearest);
     int count = roots_find(c, poly->order, low, high, roots);
     for (int i = 0; i < count; i++)
@@ -87,7 +99,23 @@ static Vec3 normal(const void *data, Vec3 p, const ShapeHit *hit) {
     return value_at(data, p).gradient;
 }
 
-static bool inside(const void *data, Vec3 p) { return value_at(data, p).value <= 0.0; }
+static bool inside(const void *data, Vec3 p) {
+    const PolyShape *poly = data;
+    const double *next = poly->coefficients;
+    int n = poly->order;
+    double x = 0.0;
+    for (int i = n; i >= 0; i--) {
+        double y = 0.0;
+        for (int j = n - i; j >= 0; j--) {
+            double z = 0.0;
+            for (int k = n - i - j; k >= 0; k--)
+                z = z * p.z + *next++;
+            y = y * p.y + z;
+        }
+        x = x * p.x + y;
+    }
+    return x <= 0.0;
+}
 
 static const SolidOps OPS = {
     .near = 1e-4, .far = SHAPE_FARTHEST, .hits = hits, .normal = normal, .inside = inside};

@@ -25,11 +25,10 @@ double roots_bound(const double *c, int n) {
     return n > 0 ? 1.0 + high : 0.0;
 }
 
-// The root in low..high, where the polynomial changes sign; up: it is positive at high.
-static double refine(const double *c, int n, double low, double high, bool up) {
+// The root in low..high, where the polynomial changes sign; up: it is positive at high; x: a guess.
+static double refine(const double *c, int n, double low, double high, bool up, double x) {
     // Halving alone takes a bracket of doubles to two neighbours in 2100 steps; Newton's steps
     // make it a handful. Ten in a row without halving the bracket are followed by a half.
-    double x = 0.5 * low + 0.5 * high;
     for (int step = 0; step < 2200; step++) {
         double y = c[n], slope = 0.0;
         for (int i = n - 1; i >= 0; i--) {
@@ -67,17 +66,38 @@ static int between(const double *c, int n, double low, double high, const double
         if (at_to == 0.0 && to > from)
             roots[count++] = to;
         else if ((at_from < 0.0 && at_to > 0.0) || (at_from > 0.0 && at_to < 0.0))
-            roots[count++] = refine(c, n, from, to, at_to > 0.0);
+            roots[count++] = refine(c, n, from, to, at_to > 0.0, 0.5 * from + 0.5 * to);
         from = to;
         at_from = at_to;
     }
     return count;
 }
 
-// In Bernstein's form between low and high a polynomial lies between its least and largest
-// coefficient: of one sign, it has no root there. Few of those that are asked about have one.
-static bool has_none(const double *c, int n, double low, double high) {
-    static const double inverse_binomials[7][7] = {
+// The same for all degrees up to n, one after the other.
+static int by_derivatives(const double *c, int n, double low, double high, double *roots) {
+    double derived[ROOTS_MAX_DEGREE + 1][ROOTS_MAX_DEGREE + 1];
+    double buffers[2][ROOTS_MAX_DEGREE + 1];
+    // derived[k] has degree k.
+    for (int i = 0; i <= n; i++)
+        derived[n][i] = c[i];
+    for (int k = n - 1; k >= 1; k--)
+        for (int i = 0; i <= k; i++)
+            derived[k][i] = derived[k + 1][i + 1] * (i + 1);
+    int count = 0;
+    for (int k = 1; k <= n; k++) {
+        double *out = k == n ? roots : buffers[k & 1];
+        count = between(derived[k], k, low, high, buffers[(k & 1) ^ 1], count, out);
+    }
+    return count;
+}
+
+// ---- Bernstein's form -----------------------------------------------------------------------
+
+enum { MOST_BERNSTEIN = 6, MOST_HALVINGS = 5 };
+
+// Returns what the coefficients in b may be off by.
+static double to_bernstein(const double *c, int n, double low, double high, double *b) {
+    static const double inverse_binomials[MOST_BERNSTEIN + 1][MOST_BERNSTEIN + 1] = {
         {1},
         {1, 1},
         {1, 1.0 / 2, 1},
@@ -86,9 +106,7 @@ static bool has_none(const double *c, int n, double low, double high) {
         {1, 1.0 / 5, 1.0 / 10, 1.0 / 10, 1.0 / 5, 1},
         {1, 1.0 / 6, 1.0 / 15, 1.0 / 20, 1.0 / 15, 1.0 / 6, 1},
     };
-    double b[7] = {0}, size = 0.0;
-    if (n > 6)
-        return false;
+    double size = 0.0;
     if (low == 0.0 && high == 1.0) {
         for (int i = 0; i <= n; i++) {
             b[i] = c[i] * inverse_binomials[n][i];
@@ -111,34 +129,70 @@ static bool has_none(const double *c, int n, double low, double high) {
     for (int k = 1; k <= n; k++)
         for (int i = n; i >= k; i--)
             b[i] += b[i - 1];
-    // At most 2^n terms of up to `size` were added, each with up to 4 n roundings.
-    double least = 0x1p-40 * size, lowest = b[0], highest = b[0];
-    for (int i = 1; i <= n; i++) {
-        lowest = b[i] < lowest ? b[i] : lowest;
-        highest = b[i] > highest ? b[i] : highest;
+    // At most 2^n terms of up to `size` were added, each with up to 4 n roundings. Halvings add
+    // n roundings each.
+    return 0x1p-40 * size;
+}
+
+typedef struct {
+    const double *c;
+    int n;
+    double least; // coefficients that are no larger have no known sign
+    double *roots;
+    int count;
+} Search;
+
+// Changes of sign along the coefficients; -1: not all signs are known. None: no root between low
+// and high; one: one root (Descartes).
+static int sign_changes(const Search *s, const double *b) {
+    int changes = 0;
+    for (int i = 0; i <= s->n; i++) {
+        if (!(fabs(b[i]) > s->least))
+            return -1;
+        changes += i > 0 && (b[i] > 0.0) != (b[i - 1] > 0.0);
     }
-    return lowest > least || highest < -least;
+    return changes;
+}
+
+// b[0] and b[n], the values at low and high, have known signs.
+static void search(Search *s, double *b, double low, double high, int halvings) {
+    int n = s->n, changes = sign_changes(s, b);
+    if (changes == 0)
+        return;
+    if (changes == 1) {
+        // Where the chord meets the axis, but not at an end.
+        double share = fmin(fmax(b[0] / (b[0] - b[n]), 0.05), 0.95);
+        double x = low + share * (high - low);
+        s->roots[s->count++] = refine(s->c, n, low, high, b[n] > 0.0, x);
+        return;
+    }
+    double left[MOST_BERNSTEIN + 1], middle = 0.5 * low + 0.5 * high;
+    // De Casteljau's triangle: b becomes the right half.
+    for (int k = 0; k <= n; k++) {
+        left[k] = b[0];
+        for (int i = 0; i < n - k; i++)
+            b[i] = 0.5 * b[i] + 0.5 * b[i + 1];
+    }
+    if (halvings == 0 || !(fabs(b[0]) > s->least)) {
+        s->count += by_derivatives(s->c, n, low, high, s->roots + s->count);
+        return;
+    }
+    search(s, left, low, middle, halvings - 1);
+    search(s, b, middle, high, halvings - 1);
 }
 
 int roots_find(const double *c, int n, double low, double high, double *roots) {
-    double derived[ROOTS_MAX_DEGREE + 1][ROOTS_MAX_DEGREE + 1];
-    double buffers[2][ROOTS_MAX_DEGREE + 1];
     while (n > 0 && c[n] == 0.0)
         n--;
     if (n == 0 || !(low <= high))
         return 0;
-    if (has_none(c, n, low, high))
-        return 0;
-    // derived[k] has degree k.
-    for (int i = 0; i <= n; i++)
-        derived[n][i] = c[i];
-    for (int k = n - 1; k >= 1; k--)
-        for (int i = 0; i <= k; i++)
-            derived[k][i] = derived[k + 1][i + 1] * (i + 1);
-    int count = 0;
-    for (int k = 1; k <= n; k++) {
-        double *out = k == n ? roots : buffers[k & 1];
-        count = between(derived[k], k, low, high, buffers[(k & 1) ^ 1], count, out);
-    }
-    return count;
+    if (n > MOST_BERNSTEIN)
+        return by_derivatives(c, n, low, high, roots);
+    double b[MOST_BERNSTEIN + 1];
+    Search s = {.c = c, .n = n, .roots = roots};
+    s.least = to_bernstein(c, n, low, high, b);
+    if (!(fabs(b[0]) > s.least && fabs(b[n]) > s.least))
+        return by_derivatives(c, n, low, high, roots);
+    search(&s, b, low, high, MOST_HALVINGS);
+    return s.count;
 }

@@ -95,6 +95,14 @@ static const char *const SCENES[] = {
     "merge { intersection { union { sphere { -0.7*x, 0.7 } sphere { 0.5*x, 0.8 } } box { <-2,-0.4,"
     "-2>, <2, 0.5, 2> } pigment { rgbt <1, 0.5, 0.4, 0.5> } } cylinder { -y, y, 0.4 pigment { rgbt"
     " <0.3, 1, 0.4, 0.5> } } object { P scale 0.5 pigment { B } } }",
+    // 14: surfaces without end, clipped by what is turned with them
+    "camera { Eye } object { Floor } quartic { <0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0,"
+    " -0.1666, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0.5, 0, -1, 0, 0, 0, 0, 0> clipped_by { quadric { <1, "
+    "1, 0>, 0, 0, -1 } plane { z, 1.4142 } plane { -z, 0 } } pigment { R } rotate <-60, 20, 40>"
+    " translate <-0.9, -0.5, 0> }"
+    "intersection { cubic { <1, 0, 0, 0, 0, 0, 0, 0, 0, -1, 0, 0, 0, 0, 0, 0, 1, 0, 0, -0.2> }"
+    " plane { x, 1 } plane { -x, 1 } plane { <1, 1, 0>, 1 } plane { <-1, -1, 0.2>, 1 } plane { z, 1"
+    " } plane { -z, 1 } pigment { G } rotate <20, 30, 10> translate x }",
 };
 enum { SCENE_COUNT = sizeof SCENES / sizeof *SCENES };
 

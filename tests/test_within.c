@@ -116,6 +116,35 @@ static void test_hyperboloid_between_planes_is_finite(void **state) {
     }
 }
 
+// A cylinder and two planes across it, turned together: no plane lies along an axis of the world.
+static void test_turned_cylinder_between_planes_is_finite(void **state) {
+    (void)state;
+    Transform turn = transform_rotate(vec3(-30, 20, 40));
+    Object object = {.type = OBJECT_QUADRIC,
+                     .shape.quadric = {.square = {1, 1, 0}, .constant = -4},
+                     .has_transform = true,
+                     .transform = turn};
+    Shape cylinder = prepare(object);
+    Vec3 along = transform_dir(&turn, vec3(0, 0, 1));
+    const PlaneShape planes[2] = {{along, 3}, {vec_neg(along), 1}};
+    Box box = shape_within_planes(&cylinder, planes, 2, everywhere);
+    Box open = shape_within_planes(&cylinder, planes, 1, everywhere);
+    assert_true(vec_length(vec_sub(open.high, open.low)) > 1e300);
+    Box want = box_empty();
+    for (int end = 0; end < 2; end++)
+        for (int i = 0; i < 360; i++) {
+            double angle = i * M_PI / 180.0;
+            Vec3 rim = vec3(2 * cos(angle), 2 * sin(angle), end ? 3 : -1);
+            want = box_extend(want, transform_point(&turn, rim));
+        }
+    assert_true(box.low.x <= want.low.x && box.low.y <= want.low.y && box.low.z <= want.low.z);
+    assert_true(box.high.x >= want.high.x && box.high.y >= want.high.y &&
+                box.high.z >= want.high.z);
+    // The box of a box that is turned: at most twice as long.
+    assert_true(vec_length(vec_sub(box.high, box.low)) <
+                2.0 * vec_length(vec_sub(want.high, want.low)));
+}
+
 static bool holds(const Box *box, Vec3 p) {
     return p.x >= box->low.x && p.x <= box->high.x && p.y >= box->low.y && p.y <= box->high.y &&
            p.z >= box->low.z && p.z <= box->high.z;
@@ -201,6 +230,7 @@ int main(void) {
         cmocka_unit_test(test_keeps_all_points),
         cmocka_unit_test(test_plane_along_an_axis_cuts),
         cmocka_unit_test(test_hyperboloid_between_planes_is_finite),
+        cmocka_unit_test(test_turned_cylinder_between_planes_is_finite),
         cmocka_unit_test(test_boxes_of_planes_hold_their_faces),
         cmocka_unit_test(test_box_of_a_turned_cube_is_its_own),
     };

@@ -82,18 +82,25 @@ static uint32_t make_list(Maker *maker, const ObjectList *list, uint32_t parent,
     return first;
 }
 
-// Planes of an intersection that enclose something: each is seen only where it is a face of that.
-// The first SHAPE_MOST_PLANES are taken.
-static void narrow_to_faces(Maker *maker, CsgNode *node) {
-    PlaneShape planes[SHAPE_MOST_PLANES];
-    uint32_t members[SHAPE_MOST_PLANES], count = 0;
-    CsgNode *nodes = maker->nodes.items;
-    for (uint32_t c = node->first; c != NO_INDEX && count < SHAPE_MOST_PLANES; c = nodes[c].next) {
+// The first planes of a list and their nodes; returns how many.
+static uint32_t find_planes(const Maker *maker, uint32_t list, PlaneShape planes[SHAPE_MOST_PLANES],
+                            uint32_t members[SHAPE_MOST_PLANES]) {
+    const CsgNode *nodes = maker->nodes.items;
+    uint32_t count = 0;
+    for (uint32_t c = list; c != NO_INDEX && count < SHAPE_MOST_PLANES; c = nodes[c].next) {
         if (!nodes[c].shape || nodes[c].shape->kind != SHAPE_PLANE)
             continue;
         members[count] = c;
         planes[count++] = nodes[c].shape->as.plane;
     }
+    return count;
+}
+
+// Planes of an intersection that enclose something: each is seen only where it is a face of that.
+static void narrow_to_faces(Maker *maker, CsgNode *node) {
+    PlaneShape planes[SHAPE_MOST_PLANES];
+    uint32_t members[SHAPE_MOST_PLANES], count = find_planes(maker, node->first, planes, members);
+    CsgNode *nodes = maker->nodes.items;
     Box all, faces[SHAPE_MOST_PLANES];
     if (count < 4 || !shape_planes_box(planes, count, &all, faces))
         return;
@@ -106,13 +113,15 @@ static void narrow_to_faces(Maker *maker, CsgNode *node) {
 // What is within all of a list of shapes. Twice: planes at the end of the list bound quadrics at
 // its beginning.
 static void narrow(const Maker *maker, CsgNode *node, uint32_t list) {
+    PlaneShape planes[SHAPE_MOST_PLANES];
+    uint32_t members[SHAPE_MOST_PLANES], count = find_planes(maker, list, planes, members);
     for (int round = 0; round < 2; round++) {
         for (uint32_t c = list; c != NO_INDEX; c = maker->nodes.items[c].next) {
             const Shape *shape = maker->nodes.items[c].shape;
             if (!shape || !maker->nodes.items[c].solid)
                 continue;
-            node->inside = shape_within(shape, node->inside);
-            node->reach = shape_within(shape, node->reach);
+            node->inside = shape_within_planes(shape, planes, count, node->inside);
+            node->reach = shape_within_planes(shape, planes, count, node->reach);
         }
     }
 }

@@ -200,9 +200,29 @@ static double try_solid_hit(void *context, const ShapeHit *hit) {
     return query->any && query->leaf ? -INFINITY : limit_of(query);
 }
 
+// Narrows from..to to the depths within the box; false: there are none. The box is wider than what
+// it stands for by far more than rounding.
+static bool narrow_to_box(const Box *box, const Ray *ray, double *from, double *to) {
+    for (int axis = 0; axis < 3; axis++) {
+        double org = vec_get(ray->org, axis), dir = vec_get(ray->dir, axis);
+        double a = vec_get(box->low, axis) - org, b = vec_get(box->high, axis) - org;
+        if (dir == 0.0) {
+            if (a > 0.0 || b < 0.0)
+                return false;
+            continue;
+        }
+        a /= dir, b /= dir;
+        *from = fmax(*from, fmin(a, b));
+        *to = fmin(*to, fmax(a, b));
+    }
+    return *from <= *to;
+}
+
 static void try_solid(RayQuery *query, const Prim *prim) {
     PrimQuery at = {query, prim, false};
-    shape_visit(&prim->shape, query->ray, query->t_min, limit_of(query), try_solid_hit, &at);
+    double from = query->t_min, to = limit_of(query);
+    if (!prim->leaf.span || narrow_to_box(prim->leaf.span, query->ray, &from, &to))
+        shape_visit(&prim->shape, query->ray, from, to, try_solid_hit, &at);
     query->stats->shape_tests++;
     query->stats->shape_hits += at.any;
 }

@@ -29,6 +29,7 @@ typedef struct {
     uint32_t gate;            // in the Csg: what bounds it, or NO_INDEX
     bool watched;             // its hits may be hidden
     uint32_t cut;             // in the Csg: the tree whose textures it shows, or NO_INDEX
+    const Box *span;          // of a poly: rays need not look for hits out of it; NULL: anywhere
     double tolerance;         // of a patch's hits, scene units
     const Instance *instance; // it is one: `object` is the instance
 } Leaf;

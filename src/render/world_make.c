@@ -97,6 +97,14 @@ static void add_instance(Maker *maker, uint32_t index, uint32_t position) {
                                        .instance = instance}));
 }
 
+// An infinite surface whose roots cost much, where trees around let it be seen only here.
+static const Box *span_of(const Csg *csg, uint32_t node) {
+    if (node == NO_INDEX || csg->nodes[node].object->type != OBJECT_POLY)
+        return NULL;
+    const Box *reach = &csg->nodes[node].reach;
+    return vec_is_finite(reach->low) && vec_is_finite(reach->high) ? reach : NULL;
+}
+
 static void add_object(Maker *maker, uint32_t index, Place place) {
     World *world = maker->world;
     const Object *object = &world->scene->objects[index];
@@ -123,7 +131,8 @@ static void add_object(Maker *maker, uint32_t index, Place place) {
                  .node = node,
                  .gate = node == NO_INDEX ? NO_INDEX : world->csg.nodes[node].gate,
                  .watched = node != NO_INDEX && csg_is_watched(&world->csg, node),
-                 .cut = csg_cut_tree(&world->csg, node)};
+                 .cut = csg_cut_tree(&world->csg, node),
+                 .span = span_of(&world->csg, node)};
     leaf.watched = leaf.watched || leaf.gate != NO_INDEX;
     array_push(&maker->leaves, leaf);
 }

@@ -136,6 +136,8 @@ bool shape_inside_bounded(const Shape *shape);
 // Holds what of the inside and of the surface lies in `around` (which may be infinite): planes
 // along the axes cut it, and so do quadrics. Others leave it as it is.
 Box shape_within(const Shape *shape, Box around);
+// The same of what is behind all the planes, which may lie along the axes of the shape's own space.
+Box shape_within_planes(const Shape *shape, const PlaneShape *planes, uint32_t count, Box around);
 // The box of what planes enclose, and of the part of each plane (one box each, perhaps an empty
 // one) that is on its surface. False: they enclose nothing finite, or are too many.
 enum { SHAPE_MOST_PLANES = 32 };

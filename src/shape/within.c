@@ -25,10 +25,15 @@ static Box box_of_ranges(const Range range[3]) {
 
 static Range common(Range a, Range b) { return (Range){fmax(a.low, b.low), fmin(a.high, b.high)}; }
 
+// What is left of a right angle by rounding of rotations: a plane so near to an axis is off by less
+// than boxes are widened, out to 1e8 units.
+static const double NEARLY = 1e-14;
+
 static Box plane_within(const PlaneShape *plane, Box around) {
     for (int axis = 0; axis < 3; axis++) {
-        double k = vec_get(plane->normal, axis);
-        if (k == 0.0 || fabs(k) != vec_length(plane->normal))
+        double k = vec_get(plane->normal, axis), b = vec_get(plane->normal, (axis + 1) % 3),
+               c = vec_get(plane->normal, (axis + 2) % 3);
+        if (k == 0.0 || fmax(fabs(b), fabs(c)) > NEARLY * fabs(k))
             continue;
         double at = plane->distance / k, by = WIDER * (1.0 + fabs(at));
         Range half = k > 0.0 ? (Range){-INFINITY, at + by} : (Range){at - by, INFINITY};
@@ -118,7 +123,20 @@ static Box quadric_within(const QuadricShape *q, Box around) {
     return box_of_ranges(range);
 }
 
+// The plane where it is in the space that t takes to the world.
+static PlaneShape plane_moved(const Transform *t, const PlaneShape *plane) {
+    const double n[3] = {plane->normal.x, plane->normal.y, plane->normal.z};
+    double moved[4];
+    for (int i = 0; i < 4; i++)
+        moved[i] = t->m[i][0] * n[0] + t->m[i][1] * n[1] + t->m[i][2] * n[2];
+    return (PlaneShape){vec3(moved[0], moved[1], moved[2]), plane->distance - moved[3]};
+}
+
 Box shape_within(const Shape *shape, Box around) {
+    return shape_within_planes(shape, NULL, 0, around);
+}
+
+Box shape_within_planes(const Shape *shape, const PlaneShape *planes, uint32_t count, Box around) {
     bool empty = !(around.low.x <= around.high.x);
     if (shape->kind == SHAPE_PLANE && !empty)
         return plane_within(&shape->as.plane, around);
@@ -127,7 +145,12 @@ Box shape_within(const Shape *shape, Box around) {
     if (!quadric || shape->inverse || empty)
         return around;
     const Transform *t = shape->transform;
-    Box found = quadric_within(quadric, t ? box_moved(t->inv, &around) : around);
+    Box local = t ? box_moved(t->inv, &around) : around;
+    for (uint32_t i = 0; t && i < count && local.low.x <= local.high.x; i++) {
+        const PlaneShape plane = plane_moved(t, &planes[i]);
+        local = plane_within(&plane, local);
+    }
+    Box found = quadric_within(quadric, local);
     if (t)
         found = box_moved(t->m, &found);
     Range range[3];

@@ -65,15 +65,22 @@ static void put_nets(const Story *story, uint32_t depth, const Bezier *patch, co
     }
 }
 
-// The patch's own parameters of the hit are asked for again, by the certified method.
-static void put_patch(const Story *story, const Path *path, const WorldHit *hit) {
-    Ray ray = path->ray; // in the space of the patch; t stays
-    const Object *instance =
-        hit->instance == NO_INDEX ? NULL : &story->scene->objects[hit->instance];
-    if (instance && instance->has_transform) {
+// The ray in the space of the patch; its depths stay.
+static Ray ray_to_patch(const Story *story, const Path *path, const WorldHit *hit) {
+    Ray ray = path->ray;
+    if (hit->instance == NO_INDEX)
+        return ray;
+    const Object *instance = &story->scene->objects[hit->instance];
+    if (instance->has_transform) {
         ray.org = transform_inv_point(&instance->transform, ray.org);
         ray.dir = transform_inv_dir(&instance->transform, ray.dir);
     }
+    return ray;
+}
+
+// The patch's own parameters of the hit are asked for again, by the certified method.
+static void put_patch(const Story *story, const Path *path, const WorldHit *hit) {
+    const Ray ray = ray_to_patch(story, path, hit);
     uint32_t depth = path->nesting + 1;
     const PatchShape *shape = &story->scene->objects[hit->object].shape.patch;
     Bezier patch;
@@ -109,6 +116,8 @@ void story_hit(const Story *story, const Path *path, const WorldHit *hit, const 
     else
         line(story, depth, "meets object %u of the scene file, patch %u of %d", hit->object, patch,
              story->patch_count);
+    if (hit->instance != NO_INDEX)
+        line(story, depth, "where the instance shows it that is object %u", hit->instance);
     line(story, depth, "distance %.15g, point " VEC, hit->t, XYZ(hit->p));
     line(story, depth, "normal " VEC ", texture coordinates %.9g %.9g", XYZ(hit->normal), hit->u,
          hit->v);

@@ -122,10 +122,34 @@ static void footprints(void **state) {
     assert_true(fabs(footprint_tolerance(&f, far) - 0.5 / 300.0) < 1e-9);
 }
 
+// Rays moved by a whole pixel give the picture moved by one, to the last bit.
+static void nudged_rays_move_the_picture(void **state) {
+    (void)state;
+    const char *log;
+    const char *run = "build/qirender +Iscenes/teapot-matte/teapot-matte.pov +Lscenes/teapot +W64 "
+                      "+H48 -A -V %s '+O%s/%s.png'";
+    char command[4600], path[4400];
+    Arena *arena = arena_create();
+    const Image *cut[2];
+    for (int k = 0; k < 2; k++) {
+        const char *name = k ? "moved" : "plain";
+        snprintf(command, sizeof command, run, k ? "--nudge 1,-1" : "", scratch_folder(), name);
+        if (run_command(&log, "%s", command) != 0)
+            fail_msg("%s", log);
+        snprintf(path, sizeof path, "%s/%s.png", scratch_folder(), name);
+        cut[k] = image_cut(arena, image_read(arena, path), k ? 0 : 1, k ? 1 : 0, 63, 47);
+    }
+    assert_true(image_compare(cut[0], cut[1], 0, 0).max == 0);
+    arena_destroy(arena);
+    assert_int_equal(run_command(&log, "build/qirender a.pov --nudge 2,0"), 2);
+    assert_non_null(strstr(log, "right,down"));
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(pixel_is_exact_to_the_eye),
         cmocka_unit_test(footprints),
+        cmocka_unit_test(nudged_rays_move_the_picture),
         cmocka_unit_test(explained),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -394,6 +394,36 @@ static void causes_are_proved(void **state) {
     proof.povray_plain = proof.plain = c; // without anti-aliasing they agree
     places_judge(&proof, limit, &place, 1);
     assert_int_equal(place.cause, CAUSE_SAMPLING);
+    // Without the agreement, but a ray moved by next to nothing is POV-Ray's: rounding; or POV-Ray
+    // sorted otherwise is ours: its bounding.
+    Image *d = plain(p->arena, 20, 20, 0.5f);
+    d->pixels[3 * (10 * 20 + 11)] = 0.6f; // another pixel flips: of each the nearest counts
+    proof.povray_plain = proof.plain = NULL;
+    for (int i = 0; i < PLACE_NUDGES; i++)
+        proof.nudged[i] = i == 2 ? d : b;
+    places_judge(&proof, limit, &place, 1);
+    assert_int_equal(place.cause, CAUSE_ROUNDING);
+    assert_true(place.nudged == 0.0);
+    for (int i = 0; i < PLACE_NUDGES; i++)
+        proof.nudged[i] = b;
+    proof.povray_sorted = a;
+    places_judge(&proof, limit, &place, 1);
+    assert_int_equal(place.cause, CAUSE_SHADING);
+    proof.povray_sorted = b;
+    places_judge(&proof, limit, &place, 1);
+    assert_int_equal(place.cause, CAUSE_BOUNDING);
+    // A ray that POV-Ray alone sees so, and one that is off with those around it.
+    proof.povray_sorted = NULL;
+    places_judge(&proof, limit, &place, 1);
+    Image *three = plain(p->arena, 3, 3, 0.5f), *other = plain(p->arena, 3, 3, 0.5f);
+    three->pixels[3 * 4] = 0.7f;
+    three->pixels[3 * 5] = 0.6f;
+    places_judge_thirds(&(PlaceThirds){three, other}, limit, &place);
+    assert_int_equal(place.cause, CAUSE_SHADING);
+    three->pixels[3 * 5] = 0.5f;
+    places_judge_thirds(&(PlaceThirds){three, other}, limit, &place);
+    assert_int_equal(place.cause, CAUSE_LONE_RAY);
+    assert_true(fabs(place.lone - 0.2) < 1e-6 && place.beside == 0.0);
     // A place at the edge of the picture has less around it.
     place = (Place){.x = 0, .y = 19, .difference = 0.2};
     places_judge(&proof, limit, &place, 1);

@@ -32,15 +32,20 @@ typedef struct {
     Progress *progress;
 } Job;
 
-// The programs that a scene may need: both pictures, four that prove, two stories a place.
-static uint64_t most_tasks(const RenderOptions *o) { return 6 + 2 * (uint64_t)o->places; }
+// The programs that a scene may need: both pictures, those that prove, four a place.
+static uint64_t most_tasks(const RenderOptions *o) {
+    return 7 + PLACE_NUDGES + 4 * (uint64_t)o->places;
+}
+
+enum { MOST_WORDS = 6 };
 
 // One program with some words behind those of the command line. name: of the picture and the log.
 typedef struct {
     bool povray;
     const char *name, *title;
-    const char *words[4];
-    bool picture; // else only what it says is wanted
+    const char *words[MOST_WORDS];
+    bool picture;        // else only what it says is wanted
+    const Place *thirds; // not NULL: only this pixel, at three times the size
 } Task;
 
 static void add_words(const Job *job, const Task *task, Command *command) {
@@ -53,7 +58,7 @@ static void add_words(const Job *job, const Task *task, Command *command) {
     run_add(command, arena_printf(job->arena, "+L%s", file_folder(job->arena, job->scene)));
     for (size_t k = 0; !task->povray && k < o->own_count; k++)
         run_add(command, o->own[k]);
-    for (int k = 0; k < 4 && task->words[k]; k++)
+    for (int k = 0; k < MOST_WORDS && task->words[k]; k++)
         run_add(command, task->words[k]);
 }
 
@@ -68,8 +73,16 @@ static Image *render_task(const Job *job, const Task *task, Run *run) {
     // Last: an INI file among the words may name another picture.
     run_add(&command, arena_printf(arena, "+I%s", job->scene));
     run_add(&command, arena_printf(arena, "+O%s", picture));
-    run_add(&command, arena_printf(arena, "+W%d", o->width));
-    run_add(&command, arena_printf(arena, "+H%d", o->height));
+    int by = task->thirds ? 3 : 1;
+    run_add(&command, arena_printf(arena, "+W%d", by * o->width));
+    run_add(&command, arena_printf(arena, "+H%d", by * o->height));
+    if (task->thirds) {
+        int x = 3 * (task->thirds->x + job->page->left), y = 3 * (task->thirds->y + job->page->top);
+        run_add(&command, arena_printf(arena, "+SC%d", x + 1));
+        run_add(&command, arena_printf(arena, "+EC%d", x + 3));
+        run_add(&command, arena_printf(arena, "+SR%d", y + 1));
+        run_add(&command, arena_printf(arena, "+ER%d", y + 3));
+    }
     run_add(&command, "-D");
     run_add(&command, "-P");
     progress_say(job->progress, arena_printf(arena, "%s: %s", job->scene, task->title));
@@ -83,6 +96,9 @@ static Image *render_task(const Job *job, const Task *task, Run *run) {
     if (!task->picture)
         return NULL;
     Image *image = image_read(arena, picture);
+    if (task->thirds)
+        return image_cut(arena, image, 3 * (task->thirds->x + job->page->left),
+                         3 * (task->thirds->y + job->page->top), 3, 3);
     const int *r = o->region;
     return r[2] ? image_cut(arena, image, r[0], r[1], r[2], r[3]) : image;
 }
@@ -118,6 +134,46 @@ static const char *tell(const Job *job, int x, int y, bool facets) {
 // ---- causes
 // ---------------------------------------------------------------------------------------
 
+static bool any_shading(const ComparePage *page) {
+    for (int i = 0; i < page->place_count; i++)
+        if (page->places[i].cause == CAUSE_SHADING)
+            return true;
+    return false;
+}
+
+// POV-Ray's triangles under rays that are moved by next to nothing, to each corner.
+static void nudge(const Job *job, PlaceProof *proof) {
+    for (int k = 0; k < PLACE_NUDGES; k++) {
+        Run unused;
+        const Task task = {
+            .name = arena_printf(job->arena, "facets-nudged-%d", k),
+            .title = "qirender with POV-Ray's triangles and moved rays",
+            .words = {"--method", "facets", "--nudge",
+                      arena_printf(job->arena, "%g,%g", k & 1 ? PLACE_NUDGE : -PLACE_NUDGE,
+                                   k & 2 ? PLACE_NUDGE : -PLACE_NUDGE)},
+            .picture = true};
+        proof->nudged[k] = render_task(job, &task, &unused);
+    }
+}
+
+// One pixel as 3 x 3 rays, by both. With anti-aliasing a pixel is many rays already.
+static void look_beside(const Job *job, Place *place) {
+    Run unused;
+    const Task povray = {.povray = true,
+                         .name = "povray-thirds",
+                         .title = "POV-Ray around a pixel",
+                         .picture = true,
+                         .thirds = place};
+    const Task facets = {.name = "facets-thirds",
+                         .title = "qirender with POV-Ray's triangles around a pixel",
+                         .words = {"--method", "facets"},
+                         .picture = true,
+                         .thirds = place};
+    const PlaceThirds thirds = {.povray = render_task(job, &povray, &unused),
+                                .facets = render_task(job, &facets, &unused)};
+    places_judge_thirds(&thirds, ONE_STEP, place);
+}
+
 // Renders what proves why the places differ, and judges them.
 static void look_into(const Job *job) {
     ComparePage *page = job->page;
@@ -136,10 +192,7 @@ static void look_into(const Job *job) {
     proof.finer = render_task(job, &finer, &unused);
     places_judge(&proof, ONE_STEP, places, page->place_count);
 
-    bool open = false;
-    for (int i = 0; i < page->place_count; i++)
-        open |= places[i].cause == CAUSE_SHADING;
-    if (open && job->options->antialias) {
+    if (any_shading(page) && job->options->antialias) {
         const Task povray = {.povray = true,
                              .name = "povray-plain",
                              .title = "POV-Ray without anti-aliasing",
@@ -153,6 +206,22 @@ static void look_into(const Job *job) {
         proof.plain = render_task(job, &plain, &unused);
         places_judge(&proof, ONE_STEP, places, page->place_count);
     }
+    if (any_shading(page)) {
+        nudge(job, &proof);
+        places_judge(&proof, ONE_STEP, places, page->place_count);
+    }
+    if (any_shading(page)) {
+        const Task sorted = {.povray = true,
+                             .name = "povray-sorted",
+                             .title = "POV-Ray with another sorting",
+                             .words = {"+BM2"},
+                             .picture = true};
+        proof.povray_sorted = render_task(job, &sorted, &unused);
+        places_judge(&proof, ONE_STEP, places, page->place_count);
+    }
+    for (int i = 0; i < page->place_count && !job->options->antialias; i++)
+        if (places[i].cause == CAUSE_SHADING)
+            look_beside(job, &places[i]);
     for (int i = 0; i < page->place_count; i++)
         for (int k = 0; k < 2; k++)
             places[i].story[k] = tell(job, places[i].x + page->left, places[i].y + page->top, k);

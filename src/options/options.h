@@ -148,6 +148,7 @@ typedef struct {
     bool prepare_given;   // else by the patches and pixels there are
     double tolerance;     // --tolerance, relative to the patch (PatchSetOptions)
     double pixels;        // the same in pixels, in place of it; 0: not given
+    double nudge[2];      // --nudge: camera rays moved by so many pixels, right and down
     int pixel[2];         // --pixel: column and row from 0; -1: none
     bool explain;         // --explain
     unsigned aovs;        // --aov: bit 1 << AovKind each

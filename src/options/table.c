@@ -317,6 +317,18 @@ static bool apply_pixel(Parse *parse, const OptionRow *row, bool on, const char 
     return true;
 }
 
+static bool apply_nudge(Parse *parse, const OptionRow *row, bool on, const char *value) {
+    (void)row;
+    (void)on;
+    char rest;
+    double x, y;
+    if (sscanf(value, "%lf,%lf%c", &x, &y, &rest) != 2 || !(fabs(x) <= 1.0 && fabs(y) <= 1.0))
+        return option_complain(parse, "right,down in pixels, -1 to 1");
+    parse->options->nudge[0] = x;
+    parse->options->nudge[1] = y;
+    return true;
+}
+
 static bool apply_aov(Parse *parse, const OptionRow *row, bool on, const char *value) {
     // ORDER aov
     static const char *const names[AOV_COUNT] = {"depth", "normal", "uv",    "patch",
@@ -552,6 +564,10 @@ const OptionRow option_rows[] = {
              "steps,bound,object"},
     {OPTION_SPECIAL, NULL, NULL, "pixel", "x,y", IN_QIRENDER, .apply = apply_pixel,
      .help = "instead of a picture, print how this pixel comes about: rays, hits, nets, lights"},
+    {OPTION_SPECIAL, NULL, NULL, "nudge", "x,y", IN_QIRENDER, .apply = apply_nudge,
+     .help =
+         "move every camera ray by so many pixels, right and down: what changes at 1e-9 hangs on "
+         "the last digits"},
     {OPTION_SPECIAL, NULL, NULL, "prepare", "how", DRAWS | IN_QIBENCH, .apply = apply_prepare,
      .help = "sub-patches for qi: full, light (few), none (the paper's); full or light by the work",
      .commands = FOR_TRACE | FOR_SPEED},

@@ -75,7 +75,8 @@ static SampleOptions sample_options(const Scene *scene, const RenderOptions *o) 
     SampleOptions s = {.method = o->antialias ? o->sampling_method : 0,
                        .depth = o->antialias_depth,
                        .threshold = (double)(float)o->antialias_threshold,
-                       .jitter = o->jitter ? (double)(float)o->jitter_amount : 0.0};
+                       .jitter = o->jitter ? (double)(float)o->jitter_amount : 0.0,
+                       .nudge = {o->nudge[0], o->nudge[1]}};
     s.eye =
         transfer_between(curve_working(&scene->settings), curve_power((float)o->antialias_gamma));
     return s;
@@ -148,7 +149,8 @@ static uint64_t identity_of(const Scene *scene, const RenderOptions *o) {
                             o->sampling_method, o->antialias_depth, o->jitter,
                             o->jitter_amount,   o->antialias_gamma, o->quality,
                             o->alpha,           o->method,          o->finer,
-                            o->tolerance,       o->pixels,          prepare_of(scene, o)};
+                            o->tolerance,       o->pixels,          prepare_of(scene, o),
+                            o->nudge[0],        o->nudge[1]};
     return hash_bytes(scene_hash(scene), facts, sizeof facts);
 }
 

@@ -79,6 +79,8 @@ uint64_t sampler_rays(const Sampler *sampler) { return sampler->rays; }
 uint64_t sampler_pixels(const Sampler *sampler) { return sampler->supersampled; }
 
 static Color trace_at(Sampler *s, double x, double y) {
+    x += s->options.nudge[0];
+    y += s->options.nudge[1];
     if (s->blur)
         return blur_trace(s->blur, &s->view, x, y, s->trace, s->context, &s->rays);
     Ray ray;

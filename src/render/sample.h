@@ -16,6 +16,7 @@ typedef struct {
     int depth;                // 1..9
     double threshold;         // 0..1: colours that differ by it or more are supersampled
     double jitter;            // 0..1: 0 for none
+    double nudge[2];          // all camera rays are moved by so many pixels, right and down
     Transfer eye;             // the space in which colours are compared
     const Textures *textures; // for a camera with a normal
 } SampleOptions;

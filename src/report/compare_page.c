@@ -216,6 +216,28 @@ static void put_proof(FILE *out, const Place *place) {
                 "POV-Ray&#8217;s own triangles are %.3g off",
                 step * place->plain, step * place->facets);
         break;
+    case CAUSE_ROUNDING:
+        fprintf(out,
+                "The last digit of a sum decides here: a ray meets an edge exactly. With "
+                "POV-Ray&#8217;s own triangles our picture is %.3g off, but with all rays moved by "
+                "%g of a pixel it is POV-Ray&#8217;s (off by %.3g)",
+                step * place->facets, PLACE_NUDGE, step * place->nudged);
+        break;
+    case CAUSE_BOUNDING:
+        fprintf(out,
+                "POV-Ray&#8217;s boxes of single precision lose the ray: with its other way of "
+                "sorting objects (+BM2) POV-Ray&#8217;s own picture is ours, with its triangles, "
+                "here (off by %.3g; %.3g with its boxes)",
+                step * place->sorted, step * place->facets);
+        break;
+    case CAUSE_LONE_RAY:
+        fprintf(
+            out,
+            "POV-Ray is alone with this ray: with its triangles our picture is its own on the "
+            "eight rays a third of a pixel away (off by %.3g), and %.3g off on the pixel&#8217;s "
+            "own",
+            step * place->beside, step * place->lone);
+        break;
     default:
         fprintf(out,
                 "With POV-Ray&#8217;s own triangles our picture is still %.3g off here, so the "

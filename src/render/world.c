@@ -1,6 +1,15 @@
 // SPDX-License-Identifier: MIT
-// Rays and points in a World. A ray tries the primitives, then the patches up to the depth found;
-// at equal depth the lower rank counts. Hits of leaves in trees are judged by csg.c.
+// Rays and points in a World. A ray walks one tree, nearer boxes first, up to the nearest hit so
+// far; at equal depth the lower rank counts. Hits of leaves in trees are judged by csg.c.
+//
+// All patches together are one item of that tree, and instances are items: below them lie trees of
+// their own, those of patches eight boxes wide, in single precision, for each instruction set
+// (src/kernel), where solids are met four at a time in any order of depth. One tree of both kinds
+// of leaves would walk each at the other's pace; as an item the patches are asked when the ray
+// comes to their box, with the nearest solid before it as the limit, and what lies behind their hit
+// is left out: 0.1 to 1.2 % fewer instructions in cliche.pov, FMunoz_demo.pov, easychair.pov and
+// primitiv.pov than asking all solids first, and the same pictures. Shadow rays, which any hit
+// ends, ask the patches first.
 #include "render/world_data.h"
 #include "shape/bvh_walk.h"
 
@@ -106,9 +115,11 @@ bool world_inside(const World *world, uint32_t object, Vec3 p) {
 typedef struct {
     const World *world;
     const Ray *ray; // unit direction
+    double unit;    // length of one of the world, in an instance's space
     double t_min, patch_min;
     uint32_t kind;
-    bool any; // the first hit ends it
+    bool any;                    // the first hit ends it
+    bool patches_done, foreseen; // foreseen: only those that something hides are left
     RayStats *stats;
     // The gate asked last, and the answer: leaves of one object follow one another.
     uint32_t gate;
@@ -220,9 +231,10 @@ static bool narrow_to_box(const Box *box, const Ray *ray, double *from, double *
 
 static void try_solid(RayQuery *query, const Prim *prim) {
     PrimQuery at = {query, prim, false};
-    double from = query->t_min, to = limit_of(query);
+    // At the same depth an earlier object counts, though some stop at the limit.
+    double from = query->t_min, to = limit_of(query) * (1.0 + 0x1p-52);
     if (!prim->leaf.span || narrow_to_box(prim->leaf.span, query->ray, &from, &to))
-        shape_visit(&prim->shape, query->ray, from, to, try_solid_hit, &at);
+        shape_visit_in(&prim->shape, query->ray, query->unit, from, to, try_solid_hit, &at);
     query->stats->shape_tests++;
     query->stats->shape_hits += at.any;
 }
@@ -242,6 +254,7 @@ static inline void try_plane(RayQuery *query, const Prim *prim) {
 }
 
 static void try_instance(RayQuery *query, const Prim *prim);
+static void try_patches(RayQuery *query);
 
 static inline void try_prim(RayQuery *query, const Prim *prim) {
     if (!(prim->leaf.mask & query->kind))
@@ -255,7 +268,10 @@ static inline void try_prim(RayQuery *query, const Prim *prim) {
         return;
     }
     if (prim->shape.kind == SHAPE_NONE) {
-        try_instance(query, prim);
+        if (prim->leaf.instance)
+            try_instance(query, prim);
+        else if (!query->patches_done)
+            try_patches(query);
         return;
     }
     ShapeHit hits[SHAPE_MAX_HITS];
@@ -294,7 +310,7 @@ static double reach(const RayQuery *query) {
     return query->leaf ? nextafter(limit_of(query), INFINITY) : query->t;
 }
 
-static void try_patches(RayQuery *query, const WorldForeseen *foreseen) {
+static void try_patches(RayQuery *query) {
     const World *world = query->world;
     PatchStats *stats = &query->stats->patch;
     double t_min = query->patch_min;
@@ -305,11 +321,9 @@ static void try_patches(RayQuery *query, const WorldForeseen *foreseen) {
         query->leaf = world->leaves;
         return;
     }
-    if (foreseen && foreseen->found)
-        try_patch_hit(query, &foreseen->hit);
-    else if (!foreseen && !query->any && world->patches &&
-             patchset_intersect(world->patches, query->ray, t_min, reach(query), query->kind, stats,
-                                &hit))
+    if (!query->foreseen && !query->any && world->patches &&
+        patchset_intersect(world->patches, query->ray, t_min, reach(query), query->kind, stats,
+                           &hit))
         try_patch_hit(query, &hit);
     if (world->filtered)
         patchset_all(world->filtered, query->ray, t_min, reach(query), query->kind, stats,
@@ -325,9 +339,13 @@ static void try_prims(RayQuery *query) {
         if (prim->leaf.gate == NO_INDEX || is_admitted(query, &prim->leaf))
             try_prim(query, prim);
     }
+    double t_min = query->t_min;
+    if (world->patches_in_tree)
+        t_min = fmin(t_min, query->patch_min);
     if (world->tree_count > 0 && !(query->any && query->leaf))
-        bvh_walk(&world->tree, query->ray, fmax(query->t_min, 0.0), limit_of(query), try_item,
-                 query);
+        bvh_walk(&world->tree, query->ray, fmax(t_min, 0.0), limit_of(query), try_item, query);
+    if (!world->patches_in_tree && !query->patches_done && !(query->any && query->leaf))
+        try_patches(query);
 }
 
 // The ray in the definition's space, of unit direction; false: nothing can be asked of it.
@@ -350,10 +368,12 @@ static void try_instance(RayQuery *query, const Prim *prim) {
     RayQuery sub;
     sub.world = instance->world;
     sub.ray = &local.ray;
+    sub.unit = local.scale;
     sub.t_min = query->t_min * local.scale;
     sub.patch_min = query->patch_min * local.scale;
     sub.kind = query->kind;
     sub.any = query->any;
+    sub.patches_done = sub.foreseen = false;
     sub.stats = query->stats;
     sub.gate = NO_INDEX;
     sub.admits = true;
@@ -364,8 +384,6 @@ static void try_instance(RayQuery *query, const Prim *prim) {
     sub.leaf = NULL;
     sub.prim = sub.outer = NULL;
     try_prims(&sub);
-    if (!(sub.any && sub.leaf))
-        try_patches(&sub, NULL);
     if (!sub.leaf)
         return;
     double t = sub.depth / local.scale;
@@ -444,6 +462,7 @@ static inline void query_start(RayQuery *query, const World *world, const Ray *u
                                RayStats *stats) {
     query->world = world;
     query->ray = unit;
+    query->unit = 1.0;
     query->t_min = near->shapes * length;
     query->patch_min = patch_least(world, near->patches * length);
     query->stats = stats;
@@ -527,9 +546,11 @@ bool world_nearest_foreseen(const World *world, const Ray *ray, WorldNear near, 
     RayQuery query;
     query_start(&query, world, &unit, &near, length, t_max, stats);
     query.kind = kind;
-    query.any = false;
+    query.any = query.patches_done = false;
+    query.foreseen = foreseen != NULL;
+    if (foreseen && foreseen->found)
+        try_patch_hit(&query, &foreseen->hit);
     try_prims(&query);
-    try_patches(&query, foreseen);
     if (!query.leaf)
         return false;
     hit->t = query.depth / length;
@@ -565,7 +586,8 @@ bool world_blocked(const World *world, const Ray *ray, WorldNear near, double t_
     RayQuery query;
     query_start(&query, world, &unit, &near, length, t_max, stats);
     query.kind = RAY_SHADOW;
-    query.any = true;
+    query.any = query.patches_done = true; // those by the quickest way, below
+    query.foreseen = false;
     double patch_min = query.patch_min;
     if (*last < world->prim_count) {
         try_prim(&query, &world->prims[*last]);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The scene made ready for rays: patches in a PatchSet, bounded primitives in a tree of boxes,
-// infinite ones beside it. Read-only while rendering; any number of threads.
+// The scene made ready for rays: bounded primitives, the patches (a PatchSet) and copies of shared
+// trees in one tree of boxes, infinite primitives beside it. Read-only while rendering; any number
+// of threads.
 #ifndef RENDER_WORLD_H
 #define RENDER_WORLD_H
 

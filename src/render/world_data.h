@@ -35,7 +35,7 @@ typedef struct {
 } Leaf;
 
 typedef struct {
-    Shape shape; // SHAPE_NONE: an instance
+    Shape shape; // SHAPE_NONE: an instance, or (without one in leaf) all patches
     Leaf leaf;
 } Prim;
 
@@ -54,13 +54,14 @@ struct World {
     uint32_t *boundless;
     Box *boundless_boxes; // hold what they contain where the trees around let it be
     uint32_t boundless_count;
-    PatchSet *patches;   // that nothing hides; id: leaf position
-    bool packets;        // they are faster together
-    bool exact;          // their hits carry bounds: not POV-Ray's triangles
-    double size, unit;   // diameter of all patches; see world_unit()
-    PatchSet *filtered;  // below a tree that may hide their hits
-    bool without_uv;     // see world_without_uv()
-    World **definitions; // of the scene; their csg is this one's
+    PatchSet *patches;    // that nothing hides; id: leaf position
+    bool packets;         // they are faster together
+    bool patches_in_tree; // one of its items is all patches; else they are asked after it
+    bool exact;           // their hits carry bounds: not POV-Ray's triangles
+    double size, unit;    // diameter of all patches; see world_unit()
+    PatchSet *filtered;   // below a tree that may hide their hits
+    bool without_uv;      // see world_without_uv()
+    World **definitions;  // of the scene; their csg is this one's
     uint32_t definition_count;
     bool inner; // it is one of them
     Box bounds; // of all that can be seen

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // From the scene's trees to what rays meet. Every leaf is on its own, in the order of the source;
-// what the trees around it hide is asked of csg.c hit by hit. The patches go to a PatchSet, bounded
-// primitives (or those that a tree bounds) to a tree of boxes, planes are tried by every ray.
+// what the trees around it hide is asked of csg.c hit by hit. The patches go to a PatchSet, which
+// is an item of the tree of boxes like each bounded primitive (or one that a tree bounds) and each
+// instance; planes are tried by every ray.
 //
 // Flags as POV-Ray keeps them: a tree other than a plain union at top level casts a shadow as a
 // whole, by its own no_shadow. Inside it a merge heeds no_image and no_reflection of its children,
@@ -280,13 +281,28 @@ static Box fill_box(const Csg *csg, uint32_t node) {
     return box;
 }
 
+// Around all patches, and their hits.
+static Box patch_box(const World *world) {
+    Box box = box_empty();
+    double most = 0.0;
+    if (world->patches)
+        box = box_union(box, patchset_bounds(world->patches));
+    if (world->filtered)
+        box = box_union(box, patchset_bounds(world->filtered));
+    for (uint32_t i = 0; i < world->leaf_count; i++)
+        most = fmax(most, world->leaves[i].tolerance);
+    Vec3 by = vec3(most, most, most);
+    return (Box){vec_sub(box.low, by), vec_add(box.high, by)};
+}
+
 // Puts the primitives in the tree's order, those without a box behind them. What cannot be seen is
 // left out.
 static void add_prims(World *world, const Box *boxes) {
     uint32_t n = world->leaf_count, bounded = 0, count = 0;
     Arena *scratch = arena_create();
-    uint32_t *order = ARENA_ARRAY(scratch, uint32_t, n), *wide = ARENA_ARRAY(scratch, uint32_t, n);
-    Box *tree_boxes = ARENA_ARRAY(scratch, Box, n);
+    uint32_t *order = ARENA_ARRAY(scratch, uint32_t, n + 1);
+    uint32_t *wide = ARENA_ARRAY(scratch, uint32_t, n);
+    Box *tree_boxes = ARENA_ARRAY(scratch, Box, n + 1);
     for (uint32_t i = 0; i < n; i++) {
         const Shape *shape = shape_of(world, i);
         bool there = world->leaves[i].instance || (shape && shape->kind != SHAPE_NONE);
@@ -299,6 +315,9 @@ static void add_prims(World *world, const Box *boxes) {
         else
             wide[count++] = i;
     }
+    world->patches_in_tree = bounded > 0 && (world->patches || world->filtered);
+    if (world->patches_in_tree)
+        tree_boxes[bounded] = patch_box(world), order[bounded++] = n;
     for (uint32_t i = 0; i < count; i++)
         order[bounded + i] = wide[i];
     count += bounded;
@@ -310,6 +329,10 @@ static void add_prims(World *world, const Box *boxes) {
     world->prim_count = count;
     for (uint32_t i = 0; i < count; i++) {
         uint32_t leaf = order[i < bounded ? world->tree.items[i] : i];
+        if (leaf == n) {
+            world->prims[i] = (Prim){{.kind = SHAPE_NONE}, {.mask = RAY_ALL}};
+            continue;
+        }
         const Shape *shape = shape_of(world, leaf);
         if (!shape) {
             world->prims[i] = (Prim){{.kind = SHAPE_NONE}, world->leaves[leaf]};
@@ -343,9 +366,9 @@ static void fill(World *world, const uint32_t *roots, uint32_t root_count,
         boxes[i] = bounds_of(world, &world->leaves[i]);
     world->bounds = box_empty();
     rank_leaves(world, &maker, boxes);
-    add_prims(world, boxes);
     add_patches(world, patches);
     measure_patches(world, patches->method);
+    add_prims(world, boxes);
     if (world->size > 0.0)
         for (uint32_t i = 0; i < n; i++)
             if (world->scene->objects[world->leaves[i].object].type == OBJECT_PATCH)

@@ -83,10 +83,10 @@ int shape_hits(const Shape *shape, const Ray *ray, ShapeHit hits[SHAPE_MAX_HITS]
     return 0;
 }
 
-void shape_visit(const Shape *shape, const Ray *ray, double t_min, double t_max, ShapeVisit visit,
-                 void *context) {
+void shape_visit_in(const Shape *shape, const Ray *ray, double unit, double t_min, double t_max,
+                    ShapeVisit visit, void *context) {
     if (shape->kind == SHAPE_SOLID) {
-        solid_visit(shape, ray, t_min, t_max, visit, context);
+        solid_visit(shape, ray, unit, t_min, t_max, visit, context);
         return;
     }
     ShapeHit hits[SHAPE_MAX_HITS];

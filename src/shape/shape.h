@@ -108,8 +108,14 @@ Shape shape_prepare(const Scene *scene, const Object *object, ShapeShared *share
 // Not for SHAPE_SOLID, which may have any number.
 int shape_hits(const Shape *shape, const Ray *ray, ShapeHit hits[SHAPE_MAX_HITS]);
 // The same for every kind, one by one. Those that lie outside t_min..t_max may be left out.
-void shape_visit(const Shape *shape, const Ray *ray, double t_min, double t_max, ShapeVisit visit,
-                 void *context);
+// unit: the length that one of the world has where the ray is, if that is not the world itself: the
+// primitives' least depths are the world's.
+void shape_visit_in(const Shape *shape, const Ray *ray, double unit, double t_min, double t_max,
+                    ShapeVisit visit, void *context);
+static inline void shape_visit(const Shape *shape, const Ray *ray, double t_min, double t_max,
+                               ShapeVisit visit, void *context) {
+    shape_visit_in(shape, ray, 1.0, t_min, t_max, visit, context);
+}
 // The primitive's own textures at a hit, weights adding up to 1; up to SHAPE_MAX_TEXTURES. None:
 // the object's counts.
 typedef struct {

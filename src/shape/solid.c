@@ -165,8 +165,8 @@ void solid_prepare(Shape *shape, const Scene *scene, const Object *object, Shape
 
 // ---- the calls ------------------------------------------------------------------------------
 
-void solid_visit(const Shape *shape, const Ray *ray, double t_min, double t_max, ShapeVisit visit,
-                 void *context) {
+void solid_visit(const Shape *shape, const Ray *ray, double unit, double t_min, double t_max,
+                 ShapeVisit visit, void *context) {
     const SolidData *solid = &shape->as.solid;
     LocalRay local;
     if (!shape_local_ray(shape->transform, ray, &local))
@@ -174,8 +174,8 @@ void solid_visit(const Shape *shape, const Ray *ray, double t_min, double t_max,
     HitSink sink = {.scale = local.scale,
                     .t_min = t_min * local.scale,
                     .t_max = t_max * local.scale,
-                    .near = solid->ops->near,
-                    .far = solid->ops->far,
+                    .near = solid->ops->near * unit,
+                    .far = solid->ops->far * unit,
                     .visit = visit,
                     .context = context};
     solid->ops->hits(solid->data, &local.ray, &sink);

@@ -37,8 +37,8 @@ struct SolidOps {
 
 void solid_prepare(Shape *shape, const Scene *scene, const Object *object, ShapeShared *shared,
                    Arena *arena);
-void solid_visit(const Shape *shape, const Ray *ray, double t_min, double t_max, ShapeVisit visit,
-                 void *context);
+void solid_visit(const Shape *shape, const Ray *ray, double unit, double t_min, double t_max,
+                 ShapeVisit visit, void *context);
 Vec3 solid_normal(const Shape *shape, Vec3 p, const ShapeHit *hit);
 Vec2 solid_uv(const Shape *shape, Vec3 p, const ShapeHit *hit);
 uint32_t solid_textures(const Shape *shape, Vec3 p, const ShapeHit *hit,

@@ -5,6 +5,12 @@
 // on the ray has n . (S - P) <= 2, twice the rounding by which P may miss the ray, and therefore
 //     |S - P| <= sum w_k |Q_k| <= 2 max_k (|Q_k| / n . Q_k).
 // If that is within the tolerance the piece has nothing that the tolerance could tell from P.
+//
+// A ray that passes beside a pole, however near: of a form f whose values are c at the pole u = 0
+// and f_ij at the other control points,
+//     f(S(u,v)) = c + u s,   s within the span of d (f_ij - c) / i,
+// since u is the sum of i/d times the Bernstein polynomials. Where all s have one sign that gives u
+// within a constant factor at once; the linear bounds come down to it step by step.
 #include "patch/qi_pole.h"
 
 typedef struct {
@@ -19,6 +25,75 @@ static void side_of(int du, int dv, int side, int *first, int *step, int *count)
     *first = side == 1 ? du * row : side == 3 ? dv : 0;
     *step = side < 2 ? 1 : row;
     *count = side < 2 ? row : du + 1;
+}
+
+unsigned qi_collapsed(const QiTarget *q) {
+    unsigned sides = 0;
+    for (int side = 0; !q->rational && side < 4; side++) {
+        int first, step, count, k = 1;
+        side_of(q->du, q->dv, side, &first, &step, &count);
+        const double *x = q->whole.x + first, *y = q->whole.y + first;
+        while (k < count && fabs(x[k * step] - x[0]) <= 2.0 * q->frame.slack_x &&
+               fabs(y[k * step] - y[0]) <= 2.0 * q->frame.slack_y)
+            k++;
+        if (k == count)
+            sides |= 1u << side;
+    }
+    return sides;
+}
+
+static unsigned touched_by(BezierRect rect) {
+    return (unsigned)(rect.u0 == 0.0) | (unsigned)(rect.u1 == 1.0) << 1 |
+           (unsigned)(rect.v0 == 0.0) << 2 | (unsigned)(rect.v1 == 1.0) << 3;
+}
+
+// The distance from the side at which c + distance s can be 0, s in a span; r: rounding.
+static bool clip_distance(double c, Span s, double r, bool from_high, Span *p) {
+    if (s.high < 0.0) {
+        c = -c;
+        s = (Span){-s.high, -s.low};
+    }
+    if (!(s.low > 0.0))
+        return true;
+    if (r < c)
+        return false;
+    double least = (-c - r) / s.high * (1.0 - 0x1p-40), most = (r - c) / s.low * (1.0 + 0x1p-40);
+    if (from_high) {
+        p->low = larger(p->low, 1.0 - most - DBL_EPSILON);
+        p->high = p->high < 1.0 - least + DBL_EPSILON ? p->high : 1.0 - least + DBL_EPSILON;
+    } else {
+        p->low = larger(p->low, least);
+        p->high = p->high < most ? p->high : most;
+    }
+    return p->low <= p->high;
+}
+
+bool qi_pole_clip(const QiTarget *q, unsigned collapsed, const QiNet *net, BezierRect rect,
+                  QiForm form, double slack, Span *u, Span *v) {
+    unsigned sides = collapsed & touched_by(rect);
+    int du = q->du, dv = q->dv, row = dv + 1;
+    for (int side = 0; side < 4; side++) {
+        if (!(sides >> side & 1))
+            continue;
+        int pole = side == 1 ? du * row : side == 3 ? dv : 0, d = side < 2 ? du : dv;
+        double c = form.bx * net->x[pole] + form.by * net->y[pole];
+        Span s = {INFINITY, -INFINITY};
+        for (int i = 0; i <= du; i++) {
+            for (int j = 0; j <= dv; j++) {
+                int away = side == 0 ? i : side == 1 ? du - i : side == 2 ? j : dv - j;
+                int k = i * row + j;
+                if (away == 0)
+                    continue;
+                double rise = (form.bx * net->x[k] + form.by * net->y[k] - c) * d / away;
+                s.low = rise < s.low ? rise : s.low;
+                s.high = larger(s.high, rise);
+            }
+        }
+        // 1 slack for S, 4 for points of the side that differ from c, 2 for s.
+        if (!clip_distance(c, s, 8.0 * slack, side & 1, side < 2 ? u : v))
+            return false;
+    }
+    return true;
 }
 
 unsigned qi_poles(const QiTarget *q) {
@@ -94,9 +169,7 @@ static bool alone(const QiTarget *q, const QiNet *net, unsigned sides, int pole)
 }
 
 bool qi_pole_settle(QiTarget *q, unsigned poles, const QiNet *net, BezierRect rect) {
-    unsigned touched = (unsigned)(rect.u0 == 0.0) | (unsigned)(rect.u1 == 1.0) << 1 |
-                       (unsigned)(rect.v0 == 0.0) << 2 | (unsigned)(rect.v1 == 1.0) << 3;
-    unsigned sides = poles & touched;
+    unsigned sides = poles & touched_by(rect);
     if (!sides)
         return false;
     // A point of one of the sides, and its index in the net.

@@ -52,7 +52,7 @@ static const double CERTAIN_SLOPE = 0.25, LIKELY_SLOPE = 0.75;
 
 typedef struct {
     QiTarget target;
-    unsigned poles; // qi_poles()
+    unsigned poles, collapsed; // qi_poles(), qi_collapsed()
     uint64_t steps, work_limit;
     bool has_local;
     QiLocal local; // of where to look
@@ -219,6 +219,17 @@ static inline bool depths_count(const QiTarget *target, double slack, const Piec
            depth.low - slack <= qi_list_z_high(&target->list, &target->frame);
 }
 
+static bool clip_poles(const Search *q, Piece *p) {
+    for (int k = 0; k < 2; k++) {
+        QiForm f = p->forms[k];
+        if (!qi_pole_clip(&q->target, q->collapsed, &p->net, p->rect, f,
+                          form_slack(f, &q->target.frame), &p->u, &p->v))
+            return false;
+    }
+    p->left = part_of(p, p->u, p->v);
+    return true;
+}
+
 // Restricts the patch, reads the parameters off. False: the ray misses the piece, or meets it only
 // at depths that do not count.
 static inline bool reduce_piece(Search *q, int du, int dv, Piece *p) {
@@ -236,7 +247,7 @@ static inline bool reduce_piece(Search *q, int du, int dv, Piece *p) {
         restrict_axis(target->whole.w, wu, wv, du, dv, p->net.w);
         scale_rational(&p->net, count);
     }
-    if (!read_off(target, &target->frame, du, dv, p))
+    if (!read_off(target, &target->frame, du, dv, p) || (q->collapsed && !clip_poles(q, p)))
         return false;
     if (!target->rational)
         restrict_axis(target->whole.z, wu, wv, du, dv, p->net.z);
@@ -569,6 +580,7 @@ static int intersect(const Bezier *patch, const double *weights, const QiQuery *
                         mode == QI_ALL ? QI_MAX_HITS : 1))
         return 0;
     q.poles = qi_poles(&q.target);
+    q.collapsed = qi_collapsed(&q.target);
     q.has_local = make_local(&q.target, query->rect, &q.local);
     q.steps = 0;
     q.work_limit = (uint64_t)qi_work_limit(patch);

@@ -78,13 +78,16 @@ void sampler_foresee(Sampler *sampler, SampleForesee foresee) { sampler->foresee
 uint64_t sampler_rays(const Sampler *sampler) { return sampler->rays; }
 uint64_t sampler_pixels(const Sampler *sampler) { return sampler->supersampled; }
 
+static bool ray_at(const Sampler *s, double x, double y, Ray *ray) {
+    return camera_ray(&s->view, x + s->options.nudge[0], y + s->options.nudge[1], ray);
+}
+
 static Color trace_at(Sampler *s, double x, double y) {
-    x += s->options.nudge[0];
-    y += s->options.nudge[1];
     if (s->blur)
-        return blur_trace(s->blur, &s->view, x, y, s->trace, s->context, &s->rays);
+        return blur_trace(s->blur, &s->view, x + s->options.nudge[0], y + s->options.nudge[1],
+                          s->trace, s->context, &s->rays);
     Ray ray;
-    if (!camera_ray(&s->view, x, y, &ray))
+    if (!ray_at(s, x, y, &ray))
         return (Color){.transmit = 1.0f};
     s->rays++;
     return s->trace(s->context, &ray);
@@ -96,8 +99,8 @@ static void plan_rows(Sampler *s, double x, double y, int across, int down) {
     s->planned_across = (size_t)across;
     for (int j = 0; j < down && s->has_plan; j++)
         for (int i = 0; i < across && s->has_plan; i++)
-            s->has_plan = camera_ray(&s->view, x + i, y + j,
-                                     &s->planned[(size_t)j * s->planned_across + (size_t)i]);
+            s->has_plan =
+                ray_at(s, x + i, y + j, &s->planned[(size_t)j * s->planned_across + (size_t)i]);
     if (s->has_plan && s->foresee)
         s->foresee(s->context, s->planned, s->planned_across, (size_t)down);
 }

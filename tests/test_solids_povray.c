@@ -174,6 +174,11 @@ static const Primitive PRIMITIVES[] = {
      "translate -0.3*x} cylinder{-y,y,0.6,0.9 scale <1,0.7,0.5> rotate 40*x "
      "translate 0.4*x}",
      true, NONE},
+    {"blob_many",
+     "#declare S = seed(2); #macro R() <1.6*rand(S)-0.8, 1.4*rand(S)-0.7, 1.4*rand(S)-0.7> #end "
+     "blob{threshold 0.5 #for (I, 1, 60) #if (mod(I, 3)) sphere{R(),0.3,1} #else "
+     "cylinder{R(),R(),0.2,0.7} #end #end",
+     true, AT_LARGE},
     {"ovus1", "ovus{0.7,0.4 translate -0.3*y", true, AT_SMALL | AT_INSIDE},
     {"ovus2", "ovus{0.5,0.7 translate -0.3*y", true, AT_SMALL},
     {"smooth_triangle",
@@ -456,6 +461,7 @@ static Bench bench_begin(int width, int height, bool full) {
 }
 
 static void bench_end(Bench *bench) {
+    assert_int_equal(chdir("/"), 0); // out of what is removed
     povray_destroy(bench->pictures);
     free(bench->ours);
     free(bench->theirs);

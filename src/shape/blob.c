@@ -2,7 +2,9 @@
 // Blobs: the field of each part is a quadratic in the square of a distance, so a polynomial of
 // degree 4 in the depth, between the depths where the ray enters and leaves the part. Between two
 // such depths the sum of those around is one polynomial. A cylinder has three parts: itself and
-// half a sphere at each end.
+// half a sphere at each end. Of many parts a tree of boxes tells which are near; sums are made in
+// their order all the same, so that they are the same to the last bit.
+#include "shape/bvh_walk.h"
 #include "shape/roots.h"
 #include "shape/solid.h"
 
@@ -24,7 +26,61 @@ typedef struct {
     Part *parts;
     uint32_t count;
     const BlobComponent *components;
+    Bvh tree; // of the parts, if there are many
 } Blob;
+
+// So many parts are remembered along a ray or around a point; where there are more, all of the
+// blob's are looked at. No memory is taken for a ray, and no blob is too large.
+enum { REMEMBERED = 64 };
+
+// The parts near a ray or a point, ascending.
+typedef struct {
+    const Blob *blob;
+    bool all; // too many
+    uint32_t count, parts[REMEMBERED];
+} Near;
+
+static bool note_part(void *context, uint32_t place) {
+    Near *near = context;
+    uint32_t part = near->blob->tree.items[place], at = near->count;
+    if (at == REMEMBERED)
+        return near->all = true;
+    for (near->count++; at > 0 && near->parts[at - 1] > part; at--)
+        near->parts[at] = near->parts[at - 1];
+    near->parts[at] = part;
+    return false;
+}
+
+static double note_part_on_ray(void *context, uint32_t place) {
+    return note_part(context, place) ? -INFINITY : INFINITY;
+}
+
+static void finish_near(Near *near) {
+    if (near->all)
+        near->count = near->blob->count;
+}
+
+static void near_point(const Blob *blob, Vec3 p, Near *near) {
+    near->blob = blob;
+    near->count = 0;
+    near->all = blob->tree.item_count == 0;
+    if (!near->all)
+        bvh_walk_point(&blob->tree, p, note_part, near);
+    finish_near(near);
+}
+
+static void near_ray(const Blob *blob, const Ray *ray, double t_min, Near *near) {
+    near->blob = blob;
+    near->count = 0;
+    near->all = blob->tree.item_count == 0;
+    if (!near->all)
+        bvh_walk(&blob->tree, ray, fmax(t_min, 0.0), INFINITY, note_part_on_ray, near);
+    finish_near(near);
+}
+
+static const Part *near_part(const Near *near, uint32_t i) {
+    return &near->blob->parts[near->all ? i : near->parts[i]];
+}
 
 static Vec3 to_part(const Part *part, Vec3 p) {
     Vec3 q = part->moved ? transform_point(&part->to_part, p) : vec_sub(p, part->center);
@@ -93,10 +149,7 @@ static void add_field(const Part *part, const Interval *i, double sum[5]) {
     sum[4] += k[2] * i->a * i->a;
 }
 
-// So many intervals are remembered along a ray; with more of them each is worked out anew when it
-// is looked at. No memory is taken for a ray, and no blob is too large.
-enum { REMEMBERED = 64 };
-
+// With too many intervals each is worked out anew when it is looked at.
 typedef struct {
     const Blob *blob;
     const Ray *ray;
@@ -117,7 +170,10 @@ static bool crossed_at(const Crossed *crossed, uint32_t i, const Part **part, In
 
 static void cross_parts(Crossed *crossed, double nearest) {
     const Blob *blob = crossed->blob;
-    for (uint32_t i = 0; i < blob->count; i++) {
+    Near near;
+    near_ray(blob, crossed->ray, crossed->origin + nearest, &near);
+    for (uint32_t k = 0; k < near.count; k++) {
+        uint32_t i = near.all ? k : near.parts[k];
         Interval interval;
         if (!part_interval(&blob->parts[i], crossed->ray, crossed->origin, &interval) ||
             interval.leave <= nearest)
@@ -196,8 +252,10 @@ static Vec3 normal(const void *data, Vec3 p, const ShapeHit *hit) {
     Vec3 sum = {0, 0, 0}, q;
     double square;
     (void)hit;
-    for (uint32_t i = 0; i < blob->count; i++) {
-        const Part *part = &blob->parts[i];
+    Near near;
+    near_point(blob, p, &near);
+    for (uint32_t i = 0; i < near.count; i++) {
+        const Part *part = near_part(&near, i);
         if (!distance2(part, p, &q, &square))
             continue;
         Vec3 down = vec_scale(q, -2.0 * (part->c[1] + 2.0 * part->c[2] * square));
@@ -220,8 +278,10 @@ static uint32_t textures(const void *data, Vec3 p, const ShapeHit *hit, ShapeTex
     double sum = 0.0, square;
     Vec3 q;
     (void)hit;
-    for (uint32_t i = 0; i < blob->count; i++) {
-        const Part *part = &blob->parts[i];
+    Near near;
+    near_point(blob, p, &near);
+    for (uint32_t i = 0; i < near.count; i++) {
+        const Part *part = near_part(&near, i);
         if (!distance2(part, p, &q, &square))
             continue;
         double weight = fabs(part->c[0] + square * (part->c[1] + square * part->c[2]));
@@ -243,8 +303,10 @@ static uint32_t textures(const void *data, Vec3 p, const ShapeHit *hit, ShapeTex
 static double field_at(const Blob *blob, Vec3 p) {
     double sum = 0.0, square;
     Vec3 q;
-    for (uint32_t i = 0; i < blob->count; i++) {
-        const Part *part = &blob->parts[i];
+    Near near;
+    near_point(blob, p, &near);
+    for (uint32_t i = 0; i < near.count; i++) {
+        const Part *part = near_part(&near, i);
         if (distance2(part, p, &q, &square))
             sum += part->c[0] + square * (part->c[1] + square * part->c[2]);
     }
@@ -325,6 +387,22 @@ static Box component_box(const BlobComponent *component) {
     return out;
 }
 
+// From so many parts on a tree of their boxes pays.
+enum { MANY = 16 };
+
+static void make_tree(Blob *blob, Arena *arena) {
+    Arena *scratch = arena_create();
+    Box *boxes = ARENA_ARRAY(scratch, Box, blob->count);
+    bool finite = true;
+    for (uint32_t i = 0; i < blob->count; i++) {
+        boxes[i] = component_box(&blob->components[blob->parts[i].component]);
+        finite = finite && vec_is_finite(boxes[i].low) && vec_is_finite(boxes[i].high);
+    }
+    if (finite)
+        blob->tree = bvh_build(boxes, blob->count, arena);
+    arena_destroy(scratch);
+}
+
 SolidData blob_prepare(const BlobShape *shape, Arena *arena) {
     Blob *blob = ARENA_NEW(arena, Blob);
     blob->threshold = shape->threshold;
@@ -364,5 +442,7 @@ SolidData blob_prepare(const BlobShape *shape, Arena *arena) {
             box = box_union(box, component_box(&shape->components[i]));
     if (blob->count == 0 || !(box.low.x <= box.high.x))
         return (SolidData){0};
+    if (blob->count > MANY)
+        make_tree(blob, arena);
     return (SolidData){textured ? &TEXTURED : &OPS, blob, box};
 }

@@ -39,12 +39,12 @@ static const Curve curves[] = {
     {.title = "newton", .method = METHOD_NEWTON, .color = "#edae49"},
     {.title = "Embree's triangles", .method = METHOD_TESSELLATION, .color = "#66a182"},
     {.title = "qi-paper", .method = METHOD_QI_PAPER, .color = "#a0a0a0"},
-    {.title = "POV-Ray's triangles, by u_steps", .method = METHOD_FACETS, .color = "#8d6a9f"},
-    {.title = "POV-Ray's triangles, by flatness",
+    {.title = "POV-Ray's triangles, u_steps", .method = METHOD_FACETS, .color = "#8d6a9f"},
+    {.title = "POV-Ray's triangles, flatness",
      .method = METHOD_FACETS,
      .flat = true,
      .color = "#c7a9d6"},
-    {.title = "POV-Ray itself, by u_steps", .povray = true, .color = "#222222"},
+    {.title = "POV-Ray itself, u_steps", .povray = true, .color = "#222222"},
 };
 enum { CURVES = sizeof curves / sizeof *curves };
 
@@ -96,9 +96,10 @@ static void write_script(const Sweep *s, bool picture, const char *svg, const ch
     OutputFile *file = file_begin(path);
     FILE *script = file_stream(file);
     fprintf(script,
-            "set terminal svg size 860,600 dynamic font 'sans-serif,13' background '#ffffff'\n"
+            "set terminal svg size 680,600 dynamic font 'sans-serif,15' background '#ffffff'\n"
             "set output '%s'\nset logscale xy\nset format x '10^{%%L}'\nset grid lc '#dddddd'\n"
-            "set key tmargin center horizontal maxcols 3 noenhanced\nset ylabel 'seconds to the "
+            "set key tmargin center horizontal maxcols 2 samplen 2 width -3 font ',13' "
+            "noenhanced\nset ylabel 'seconds to the "
             "picture'\n"
             "set xlabel '%s'\n",
             svg,
@@ -206,7 +207,7 @@ static void put_table(FILE *out, const Sweep *s) {
         fprintf(out, "<tr%s><th scope=\"row\">%s</th>", r->front ? " class=\"front\"" : "",
                 sweep_point_name(&r->point, arena));
         if (r->failed) {
-            fprintf(out, "<td colspan=\"15\">%s</td></tr>\n", r->failed);
+            fprintf(out, "<td colspan=\"15\" class=\"said\">%s</td></tr>\n", r->failed);
             continue;
         }
         fprintf(out, "<td>%.3f</td><td class=\"soft\">%.3f&#8211;%.3f</td><td>%d</td><td>%.0f</td>",
@@ -277,10 +278,15 @@ void sweep_page_write(const Sweep *const *sweeps, size_t count, const char *comm
         out,
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
         "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
-        "<title>Speed against accuracy</title>\n<style>\n%s.curve{overflow-x:auto}.curve "
-        "svg{width:100%%;min-width:36rem;height:auto}"
-        "@media print{.curve svg{min-width:0}.scroll{overflow:visible}.scroll "
-        "table{font-size:6.5pt}}"
+        "<title>Speed against accuracy</title>\n<style>\n%s.curve "
+        "svg{width:100%%;max-width:46rem;height:auto}"
+        ".scroll table{border-collapse:separate;border-spacing:0}"
+        ".scroll th:first-child{position:sticky;left:0;background:var(--paper);"
+        "background-clip:padding-box}"
+        "@media print{@page{margin:12mm}.curve svg{max-width:26rem}.scroll{overflow:visible}"
+        ".scroll th:first-child{position:static}.scroll table{font-size:6pt}"
+        ".scroll thead th{white-space:normal;font-size:6pt;vertical-align:bottom}"
+        ".scroll th,.scroll td{padding:.12rem 0 .12rem .3rem}}"
         "tr.front th,tr.front td{font-weight:600}figure{margin-bottom:1.2rem}\n</style>\n</head>\n"
         "<body>\n<main>\n<header>\n<h1>Speed against accuracy</h1>\n<p class=\"soft\">",
         page_style);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "render/story.h"
 
+#include "model/scene_fields.h"
 #include "patch/qi.h"
 #include "patch/quasi.h"
 #include "render/camera.h"
@@ -112,7 +113,8 @@ void story_hit(const Story *story, const Path *path, const WorldHit *hit, const 
     }
     uint32_t patch = story->patch_of[hit->object];
     if (patch == NO_INDEX)
-        line(story, depth, "meets object %u of the scene file", hit->object);
+        line(story, depth, "meets object %u of the scene file: %s", hit->object,
+             OBJECT_TYPE_NAMES[story->scene->objects[hit->object].type]);
     else
         line(story, depth, "meets object %u of the scene file, patch %u of %d", hit->object, patch,
              story->patch_count);

@@ -241,7 +241,8 @@ static void put_proof(FILE *out, const Place *place) {
     default:
         fprintf(out,
                 "With POV-Ray&#8217;s own triangles our picture is still %.3g off here, so the "
-                "patches&#8217; geometry is not the reason",
+                "patches&#8217; geometry is not the reason; the stories below name what the ray "
+                "meets",
                 step * place->facets);
     }
     fputs(".</p>\n", out);

@@ -1,442 +1,9 @@
 // SPDX-License-Identifier: MIT
-// The options themselves (facts: sdl 5.2), and the few whose values need a look of their own.
+// The options themselves (facts: sdl 5.2).
 #include "options/table.h"
 
 #include "options/table_bench.h"
-
-#include <ctype.h>
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-#include <strings.h>
-#include <sys/stat.h>
-
-// ---- values that are more than a number
-// -----------------------------------------------------------
-
-bool option_complain(Parse *parse, const char *what) {
-    snprintf(parse->why, sizeof parse->why, "%s", what);
-    return false;
-}
-
-// +A, +A0.x: POV-Ray takes no other spelling of the threshold.
-static bool apply_antialias(Parse *parse, const OptionRow *row, bool on, const char *value) {
-    (void)row;
-    double threshold;
-    if (*value) {
-        if (strncmp(value, "0.", 2) != 0 || !option_number(value, &threshold))
-            return option_complain(
-                parse, "the threshold must be written with a leading \"0.\", as in +A0.3");
-        parse->options->antialias_threshold = threshold;
-    }
-    parse->options->antialias = on;
-    return true;
-}
-
-static bool apply_antialias_flag(Parse *parse, const OptionRow *row, bool on, const char *value) {
-    (void)row, (void)on;
-    parse->options->antialias = option_truth(value);
-    return true;
-}
-
-static bool apply_jitter(Parse *parse, const OptionRow *row, bool on, const char *value) {
-    (void)row;
-    double amount;
-    if (*value) {
-        if (!option_number(value, &amount))
-            return option_complain(parse, "the amount must be a number, as in +J0.5");
-        parse->options->jitter_amount = fmin(fmax(amount, 0.0), 1.0);
-    }
-    parse->options->jitter = on;
-    return true;
-}
-
-// [type letter][bits or 'g'], as in N16.
-static bool read_format(Parse *parse, const char *value) {
-    static const struct {
-        char letter;
-        ImageFormat format;
-        bool compressed, grayscale;
-    } types[] = {
-        {'N', IMAGE_PNG, false, true},  {'T', IMAGE_TGA, false, false},
-        {'C', IMAGE_TGA, true, false},  {'P', IMAGE_PPM, false, true},
-        {'B', IMAGE_BMP, false, false}, {'J', IMAGE_JPEG, false, false},
-        {'E', IMAGE_EXR, false, false}, {'H', IMAGE_HDR, false, false},
-    };
-    RenderOptions *o = parse->options;
-    for (size_t i = 0; i < sizeof types / sizeof *types; i++) {
-        if (toupper((unsigned char)*value) != types[i].letter)
-            continue;
-        int bits = o->bits;
-        bool grey = strcasecmp(value + 1, "g") == 0;
-        if (grey && !types[i].grayscale)
-            return option_complain(parse, "'g' (greyscale) goes with N (PNG) and P (PPM) only");
-        if (value[1] && !grey && !option_integer(value + 1, &bits))
-            return option_complain(
-                parse, "after the type letter comes a number of bits or 'g', as in +FN16");
-        o->format = types[i].format;
-        o->compressed = types[i].compressed;
-        o->grayscale = grey;
-        o->format_given = true;
-        o->bits = bits < 5 ? 5 : bits > 16 ? 16 : bits;
-        return true;
-    }
-    return option_complain(
-        parse, "the type letter is one of N (PNG), T, C (TGA), P (PPM), B (BMP), J (JPEG),"
-               " E (EXR), H (HDR)");
-}
-
-static bool apply_format(Parse *parse, const OptionRow *row, bool on, const char *value) {
-    (void)row;
-    if (*value && !read_format(parse, value))
-        return false;
-    parse->options->output_to_file = on;
-    return true;
-}
-
-// Of the keyword's value only the letter counts, as for POV-Ray.
-static bool apply_format_keyword(Parse *parse, const OptionRow *row, bool on, const char *value) {
-    (void)row, (void)on;
-    RenderOptions *o = parse->options;
-    const RenderOptions before = *o;
-    if (!read_format(parse, value))
-        return false;
-    if (o->bits != before.bits || o->grayscale)
-        option_remark(parse, true,
-                      "POV-Ray reads only the letter of Output_File_Type=%s; the rest is "
-                      "Bits_Per_Color=n or Grayscale_Output=on",
-                      value);
-    o->bits = before.bits;
-    o->grayscale = before.grayscale;
-    return true;
-}
-
-static bool apply_file_gamma(Parse *parse, const OptionRow *row, bool on, const char *value) {
-    (void)row, (void)on;
-    double gamma = 0;
-    if (strcasecmp(value, "srgb") != 0 && (!option_number(value, &gamma) || gamma < 0.01))
-        return option_complain(parse, "the gamma is a positive number or sRGB");
-    parse->options->file_gamma = gamma;
-    return true;
-}
-
-static bool apply_declare(Parse *parse, const OptionRow *row, bool on, const char *value) {
-    (void)row, (void)on;
-    const char *equals = strchr(value, '=');
-    double number;
-    bool named = isalpha((unsigned char)*value) || *value == '_';
-    for (const char *p = value; equals && p < equals; p++)
-        named = named && (isalnum((unsigned char)*p) || *p == '_');
-    if (!equals || !named || !option_number(equals + 1, &number))
-        return option_complain(parse, "it is written Declare=Name=number");
-
-    // POV-Ray hands the value on with six digits.
-    char digits[40];
-    snprintf(digits, sizeof digits, "%.6g", (double)(float)number);
-    RenderOptions *o = parse->options;
-    OptionDeclare *grown = ARENA_ARRAY(parse->arena, OptionDeclare, o->declare_count + 1);
-    if (o->declare_count)
-        memcpy(grown, o->declares, o->declare_count * sizeof *grown);
-    char *name = arena_strdup(parse->arena, value);
-    name[equals - value] = '\0';
-    grown[o->declare_count++] = (OptionDeclare){name, strtod(digits, NULL)};
-    o->declares = grown;
-    return true;
-}
-
-static void add_path(Parse *parse, const char ***paths, size_t *count, const char *path) {
-    const char **grown = ARENA_ARRAY(parse->arena, const char *, *count + 1);
-    if (*count)
-        memcpy(grown, *paths, *count * sizeof *grown);
-    grown[(*count)++] = path;
-    *paths = grown;
-}
-
-static bool apply_library(Parse *parse, const OptionRow *row, bool on, const char *value) {
-    (void)row, (void)on;
-    RenderOptions *o = parse->options;
-    if (!*value)
-        return option_complain(parse, "it needs a folder, as in +Linclude");
-    add_path(parse, &o->library_paths, &o->library_path_count, value);
-    return true;
-}
-
-static bool apply_allow_write(Parse *parse, const OptionRow *row, bool on, const char *value) {
-    (void)row, (void)on;
-    RenderOptions *o = parse->options;
-    struct stat st;
-    if (stat(value, &st) != 0 || !S_ISDIR(st.st_mode))
-        return option_complain(parse, "there is no such folder");
-    add_path(parse, &o->write_folders, &o->write_folder_count, value);
-    return true;
-}
-
-static bool apply_clock(Parse *parse, const OptionRow *row, bool on, const char *value) {
-    (void)row, (void)on;
-    double clock;
-    if (!option_number(value, &clock))
-        return option_complain(parse, "the clock must be a number, as in +K0.5");
-    parse->options->clock = (double)(float)clock;
-    parse->options->clock_given = true;
-    return true;
-}
-
-// Single precision, as POV-Ray hands it around.
-static bool apply_float(Parse *parse, const OptionRow *row, bool on, const char *value) {
-    (void)on;
-    double number;
-    if (!option_number(value, &number))
-        return option_complain(parse, "a number must follow");
-    *(double *)(void *)((char *)parse->options + row->offset) = (double)(float)number;
-    return true;
-}
-
-static bool apply_include_ini(Parse *parse, const OptionRow *row, bool on, const char *value) {
-    (void)row, (void)on;
-    return option_ini(parse, value);
-}
-
-static bool apply_command(Parse *parse, const OptionRow *row, bool on, const char *value) {
-    (void)on;
-    if (*value)
-        option_remark(parse, true, "%s: commands of the shell are not run", row->keyword);
-    return true;
-}
-
-// Why a program ended is not hidden by -GA, as in POV-Ray; -GF does that.
-static void show_all(RenderOptions *o, bool on) {
-    for (int i = 0; i < CONSOLE_COUNT; i++)
-        if (on || i != CONSOLE_FATAL)
-            o->console[i] = on;
-}
-
-// +GD, -GD, +GDname, -GDname: is the stream shown, and where is its copy? The row's field is the
-// name of the copy.
-static bool apply_console(Parse *parse, const OptionRow *row, bool on, const char *value) {
-    RenderOptions *o = parse->options;
-    const char **file = (const char **)(void *)((char *)o + row->offset);
-    if (file == &o->all_file)
-        show_all(o, on);
-    else
-        o->console[file - o->console_file] = on;
-    if (*value)
-        *file = value;
-    return true;
-}
-
-static bool apply_all_console(Parse *parse, const OptionRow *row, bool on, const char *value) {
-    (void)row, (void)on;
-    show_all(parse->options, option_truth(value));
-    return true;
-}
-
-static bool apply_block_size(Parse *parse, const OptionRow *row, bool on, const char *value) {
-    (void)row, (void)on;
-    int size;
-    if (!option_integer(value, &size) || size < 4)
-        return option_complain(parse, "tiles are at least 4 pixels wide, as in +BS32");
-    parse->options->block_size = size;
-    return true;
-}
-
-static bool apply_version(Parse *parse, const OptionRow *row, bool on, const char *value) {
-    (void)row, (void)on;
-    double version;
-    if (!option_number(value, &version) || version < 1.0 || version > 3.8)
-        return option_complain(
-            parse, "the version of the language lies between 1.0 and 3.8, as in +MV3.7");
-    parse->options->version = (int)lround(100.0 * version);
-    return true;
-}
-
-static bool apply_display(Parse *parse, const OptionRow *row, bool on, const char *value) {
-    (void)row;
-    if (strspn(value, "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789") !=
-        strlen(value))
-        return option_complain(parse, "after +D come letters for the display");
-    parse->options->display = on;
-    return true;
-}
-
-static const char *const dither_codes[] = {"", "B2", "B3", "B4", "D1", "D2", "FS"}; // ORDER
-
-const char *option_dither_code(DitherMethod method) { return dither_codes[method]; }
-
-static bool apply_dither_method(Parse *parse, const OptionRow *row, bool on, const char *value) {
-    (void)row, (void)on;
-    for (int i = DITHER_B2; i <= DITHER_FS; i++)
-        if (strcasecmp(value, dither_codes[i]) == 0) {
-            parse->options->dither_method = (DitherMethod)i;
-            return true;
-        }
-    return option_complain(parse, "the methods of dithering are B2, B3, B4, D1, D2 and FS");
-}
-
-// +TH, -TH, +THFS: the flag, and perhaps the method.
-static bool apply_dither(Parse *parse, const OptionRow *row, bool on, const char *value) {
-    parse->options->dither = on;
-    return !*value || apply_dither_method(parse, row, on, value);
-}
-
-static bool apply_method(Parse *parse, const OptionRow *row, bool on, const char *value) {
-    (void)row, (void)on;
-    if (patch_method_parse(value, &parse->options->method)) {
-        parse->options->bench.method_given = true;
-        return true;
-    }
-    size_t at = (size_t)snprintf(parse->why, sizeof parse->why, "the methods are");
-    for (int i = 0; i < METHOD_COUNT && at < sizeof parse->why; i++)
-        at += (size_t)snprintf(parse->why + at, sizeof parse->why - at, "%s %s", i ? "," : "",
-                               patch_method_name((PatchMethod)i));
-    return false;
-}
-
-static bool apply_region(Parse *parse, const OptionRow *row, bool on, const char *value) {
-    (void)row;
-    (void)on;
-    char rest;
-    int *r = parse->options->region, got[4];
-    if (sscanf(value, "%d,%d,%d,%d%c", &got[0], &got[1], &got[2], &got[3], &rest) != 4 ||
-        got[0] < 0 || got[1] < 0 || got[2] < 1 || got[3] < 1)
-        return option_complain(parse,
-                               "left,top,width,height in pixels, the first two counted from 0");
-    memcpy(r, got, sizeof got);
-    return true;
-}
-
-static bool apply_pixel(Parse *parse, const OptionRow *row, bool on, const char *value) {
-    (void)row;
-    (void)on;
-    char rest;
-    int x, y;
-    if (sscanf(value, "%d,%d%c", &x, &y, &rest) != 2 || x < 0 || y < 0)
-        return option_complain(parse, "column,row, both counted from 0");
-    parse->options->pixel[0] = x;
-    parse->options->pixel[1] = y;
-    return true;
-}
-
-static bool apply_nudge(Parse *parse, const OptionRow *row, bool on, const char *value) {
-    (void)row;
-    (void)on;
-    char rest;
-    double x, y;
-    if (sscanf(value, "%lf,%lf%c", &x, &y, &rest) != 2 || !(fabs(x) <= 1.0 && fabs(y) <= 1.0))
-        return option_complain(parse, "right,down in pixels, -1 to 1");
-    parse->options->nudge[0] = x;
-    parse->options->nudge[1] = y;
-    return true;
-}
-
-static bool apply_aov(Parse *parse, const OptionRow *row, bool on, const char *value) {
-    // ORDER aov
-    static const char *const names[AOV_COUNT] = {"depth", "normal", "uv",    "patch",
-                                                 "steps", "bound",  "object"};
-    (void)row;
-    (void)on;
-    while (*value) {
-        size_t length = strcspn(value, ",");
-        int kind = 0;
-        while (kind < AOV_COUNT &&
-               (strlen(names[kind]) != length || strncmp(names[kind], value, length) != 0))
-            kind++;
-        if (kind == AOV_COUNT)
-            return option_complain(parse,
-                                   "the channels are depth,normal,uv,patch,steps,bound,object");
-        parse->options->aovs |= 1u << kind;
-        value += length + (value[length] == ',');
-    }
-    return true;
-}
-
-static bool apply_tolerance(Parse *parse, const OptionRow *row, bool on, const char *value) {
-    (void)row;
-    (void)on;
-    RenderOptions *o = parse->options;
-    size_t length = strlen(value);
-    bool pixels = length > 2 && strcmp(value + length - 2, "px") == 0;
-    const char *text = pixels ? arena_printf(parse->arena, "%.*s", (int)length - 2, value) : value;
-    double tolerance;
-    if (!option_number(text, &tolerance) || tolerance < (pixels ? 1e-6 : 1e-15) || tolerance > 1.0)
-        return option_complain(parse,
-                               "a share of the patch's diameter, 1e-15 to 1, or of a pixel where "
-                               "the patch is seen, 1e-6px to 1px");
-    if (pixels && parse->program == PROGRAM_QIBENCH)
-        return option_complain(parse,
-                               "without a camera there are no pixels: a share of the patch's "
-                               "diameter, 1e-15 to 1");
-    o->pixels = pixels ? tolerance : 0.0;
-    o->bench.tolerance_given = true;
-    if (!pixels)
-        o->tolerance = tolerance;
-    return true;
-}
-
-const Accuracy options_accuracies[ACCURACY_COUNT] = {
-    {"draft", 1e-9, 0.1}, {"pixel", 1e-9, 1e-6}, {"fine", 1e-9, 0.0}, {"exact", 1e-14, 0.0}};
-
-static bool apply_accuracy(Parse *parse, const OptionRow *row, bool on, const char *value) {
-    (void)row, (void)on;
-    for (int i = 0; i < ACCURACY_COUNT; i++)
-        if (strcasecmp(value, options_accuracies[i].name) == 0) {
-            parse->options->pixels = options_accuracies[i].pixels;
-            if (options_accuracies[i].pixels == 0.0)
-                parse->options->tolerance = options_accuracies[i].tolerance;
-            return true;
-        }
-    return option_complain(parse, "draft, pixel, fine or exact");
-}
-
-static bool apply_prepare(Parse *parse, const OptionRow *row, bool on, const char *value) {
-    (void)row, (void)on;
-    parse->options->prepare_given = true;
-    return patch_prepare_parse(value, &parse->options->prepare) ||
-           option_complain(parse, "the ways are full, light, none");
-}
-
-// Takes effect at once: all that trace in this program use it.
-static bool apply_isa(Parse *parse, const OptionRow *row, bool on, const char *value) {
-    (void)row, (void)on;
-    switch (patch_isa_choose(value)) {
-    case PATCH_ISA_CHOSEN:
-        return true;
-    case PATCH_ISA_UNUSABLE:
-        return option_complain(parse, "this machine does not have it");
-    case PATCH_ISA_UNKNOWN:
-        break;
-    }
-    return option_complain(parse, "the instruction sets are scalar, avx2, avx512");
-}
-
-// ORDER limit
-static const char *const limit_names[] = {"calls",   "elements", "includes", "megabytes", "nesting",
-                                          "objects", "seconds",  "string",   "tokens"};
-_Static_assert(sizeof limit_names / sizeof *limit_names == LIMIT_COUNT, "a name for each limit");
-
-const char *options_limit_name(Limit limit) { return limit_names[limit]; }
-
-static bool apply_limit(Parse *parse, const OptionRow *row, bool on, const char *value) {
-    (void)row, (void)on;
-    size_t length = strcspn(value, "=");
-    for (int i = 0; i < LIMIT_COUNT; i++) {
-        if (strlen(limit_names[i]) != length || strncasecmp(value, limit_names[i], length) != 0)
-            continue;
-        double number;
-        if (value[length] != '=' || !option_number(value + length + 1, &number) || number < 1)
-            return option_complain(parse, "a positive number must follow, as in tokens=1e9");
-        parse->options->limits[i] = number < 1e15 ? (uint64_t)number : (uint64_t)1e15;
-        return true;
-    }
-    size_t at = (size_t)snprintf(parse->why, sizeof parse->why, "the limits are");
-    for (int i = 0; i < LIMIT_COUNT && at < sizeof parse->why; i++)
-        at += (size_t)snprintf(parse->why + at, sizeof parse->why - at, "%s %s", i ? "," : "",
-                               limit_names[i]);
-    return false;
-}
-
-// ---- the table
-// ------------------------------------------------------------------------------------
+#include "options/table_values.h"
 
 #define FIELD(name) .offset = offsetof(RenderOptions, name)
 #define CLIP(least, most) .low = (least), .high = (most)
@@ -452,7 +19,7 @@ static bool apply_limit(Parse *parse, const OptionRow *row, bool on, const char 
 #define COMMAND(ini)                                                                               \
     {                                                                                              \
         .kind = OPTION_SPECIAL, .keyword = (ini), .value = "command", .programs = IN_ALL,          \
-        .apply = apply_command                                                                     \
+        .apply = option_apply_command                                                              \
     }
 #define STREAM(letters_of, name, which, what)                                                      \
     {OPTION_SPECIAL,                                                                               \
@@ -462,7 +29,7 @@ static bool apply_limit(Parse *parse, const OptionRow *row, bool on, const char 
      "[name]",                                                                                     \
      IN_ALL,                                                                                       \
      FIELD(console_file[which]),                                                                   \
-     .apply = apply_console,                                                                       \
+     .apply = option_apply_console,                                                                \
      .help = (what)},                                                                              \
         {OPTION_FLAG, NULL, name "_Console", NULL, NULL, IN_ALL, FIELD(console[which])}, {         \
         OPTION_TEXT, NULL, name "_File", NULL, "name", IN_ALL, FIELD(console_file[which])          \
@@ -476,32 +43,34 @@ const OptionRow option_rows[] = {
      .help = "the scene; .pov is added if need be"},
     {OPTION_TEXT, "O", "Output_File_Name", "output", "name", IN_ALL, FIELD(output),
      .help = "the file to write, or a folder if it ends in '/'; - is standard output"},
-    {OPTION_SPECIAL, "F", NULL, NULL, "[type][bits|g]", DRAWS, .apply = apply_format,
+    {OPTION_SPECIAL, "F", NULL, NULL, "[type][bits|g]", DRAWS, .apply = option_apply_format,
      .help = "type N PNG, T TGA, C packed TGA, P PPM, B BMP, J JPEG, E EXR, H HDR; bits of each "
              "colour (8); g greyscale (N, P). -F writes no file"},
-    {OPTION_SPECIAL, NULL, "Output_File_Type", NULL, "type", DRAWS, .apply = apply_format_keyword},
+    {OPTION_SPECIAL, NULL, "Output_File_Type", NULL, "type", DRAWS,
+     .apply = option_apply_format_keyword},
     {OPTION_FLAG, NULL, "Output_to_File", NULL, NULL, DRAWS, FIELD(output_to_file)},
     {OPTION_INT, NULL, "Bits_Per_Color", NULL, "n", DRAWS, FIELD(bits), CLIP(5, 16)},
     {OPTION_FLAG, NULL, "Grayscale_Output", NULL, NULL, DRAWS, FIELD(grayscale)},
     {OPTION_FLAG, "UA", "Output_Alpha", NULL, NULL, DRAWS, FIELD(alpha),
      .help = "where nothing is, the picture is transparent"},
-    {OPTION_SPECIAL, NULL, "File_Gamma", NULL, "x", DRAWS, .apply = apply_file_gamma,
+    {OPTION_SPECIAL, NULL, "File_Gamma", NULL, "x", DRAWS, .apply = option_apply_file_gamma,
      .help = "the gamma of the file: a number, or sRGB (default)"},
-    {OPTION_SPECIAL, "TH", NULL, NULL, "[method]", DRAWS, .apply = apply_dither,
+    {OPTION_SPECIAL, "TH", NULL, NULL, "[method]", DRAWS, .apply = option_apply_dither,
      .help = "dither the file's values: B2 B3 B4 D1 D2 FS (FS); -TH off"},
     {OPTION_FLAG, NULL, "Dither", NULL, NULL, DRAWS, FIELD(dither)},
-    {OPTION_SPECIAL, NULL, "Dither_Method", NULL, "name", DRAWS, .apply = apply_dither_method},
-    {OPTION_SPECIAL, "L", "Library_Path", NULL, "folder", IN_ALL, .apply = apply_library,
+    {OPTION_SPECIAL, NULL, "Dither_Method", NULL, "name", DRAWS,
+     .apply = option_apply_dither_method},
+    {OPTION_SPECIAL, "L", "Library_Path", NULL, "folder", IN_ALL, .apply = option_apply_library,
      .help = "where includes are looked for; may be repeated; so is a bare folder/"},
-    {OPTION_SPECIAL, NULL, "Declare", NULL, "name=x", IN_ALL, .apply = apply_declare,
+    {OPTION_SPECIAL, NULL, "Declare", NULL, "name=x", IN_ALL, .apply = option_apply_declare,
      .help = "a number that the scene can use"},
     {OPTION_TEXT, "HI", "Include_Header", NULL, "name", IN_ALL, FIELD(include_header),
      .help = "a file that is included before the scene"},
     {OPTION_TEXT, "GI", "Create_Ini", NULL, "name", IN_QIRENDER | IN_POV2QI, FIELD(create_ini),
      .help = "write these settings to an INI file"},
-    {OPTION_SPECIAL, "K", "Clock", NULL, "x", IN_ALL, .apply = apply_clock,
+    {OPTION_SPECIAL, "K", "Clock", NULL, "x", IN_ALL, .apply = option_apply_clock,
      .help = "the value of `clock`"},
-    {OPTION_SPECIAL, "MV", "Version", NULL, "x", IN_ALL, .apply = apply_version,
+    {OPTION_SPECIAL, "MV", "Version", NULL, "x", IN_ALL, .apply = option_apply_version,
      .help = "the version of the language before the scene's #version"},
     {OPTION_FLAG, NULL, NULL, "binary", NULL, IN_POV2QI, FIELD(binary),
      .help = "large arrays to a second file"},
@@ -527,16 +96,17 @@ const OptionRow option_rows[] = {
      .help = "the last row"},
 
     HEADING("Quality"),
-    {OPTION_SPECIAL, "A", NULL, NULL, "[0.x]", DRAWS, .apply = apply_antialias,
+    {OPTION_SPECIAL, "A", NULL, NULL, "[0.x]", DRAWS, .apply = option_apply_antialias,
      .help = "anti-aliasing where colours differ by 0.x (0.3); -A off"},
-    {OPTION_SPECIAL, NULL, "Antialias", NULL, "on|off", DRAWS, .apply = apply_antialias_flag},
+    {OPTION_SPECIAL, NULL, "Antialias", NULL, "on|off", DRAWS,
+     .apply = option_apply_antialias_flag},
     {OPTION_NUMBER, NULL, "Antialias_Threshold", NULL, "x", DRAWS, FIELD(antialias_threshold),
      CLIP(0, 1)},
     {OPTION_INT, "AM", "Sampling_Method", NULL, "n", DRAWS, FIELD(sampling_method), CLIP(1, 2),
      .help = "1 compares neighbours (default), 2 corners, adaptively"},
     {OPTION_INT, "R", "Antialias_Depth", NULL, "n", DRAWS, FIELD(antialias_depth), CLIP(1, 9),
      .help = "samples a side (3), 1 to 9"},
-    {OPTION_SPECIAL, "J", NULL, NULL, "[x]", DRAWS, .apply = apply_jitter,
+    {OPTION_SPECIAL, "J", NULL, NULL, "[x]", DRAWS, .apply = option_apply_jitter,
      .help = "jitter of the samples, 0 to 1 (1); -J off"},
     {OPTION_FLAG, NULL, "Jitter", NULL, NULL, DRAWS, FIELD(jitter)},
     {OPTION_NUMBER, NULL, "Jitter_Amount", NULL, "x", DRAWS, FIELD(jitter_amount), CLIP(0, 1)},
@@ -544,34 +114,36 @@ const OptionRow option_rows[] = {
      CLIP(0.01, 100), .help = "the gamma in which colours are compared (2.5)"},
     {OPTION_INT, "Q", "Quality", NULL, "n", DRAWS, FIELD(quality), CLIP(0, 9),
      .help = "0 quick colours ... 4 shadows ... 9 everything (default)"},
-    {OPTION_SPECIAL, NULL, NULL, "method", "name", DRAWS | IN_QIBENCH, .apply = apply_method,
+    {OPTION_SPECIAL, NULL, NULL, "method", "name", DRAWS | IN_QIBENCH, .apply = option_apply_method,
      .help = "how patches are met: qi (default), qi-paper, clipping, newton, facets (POV-Ray's "
              "triangles), tessellation (Embree's)",
      .commands = FOR_TRACE | FOR_SPEED},
     {OPTION_INT, NULL, NULL, "finer", "n", DRAWS, FIELD(finer), CLIP(0, 8),
      .help = "facets: u_steps and v_steps n higher than the scene says, flatness a 4^n-th of it"},
-    {OPTION_SPECIAL, NULL, NULL, "tolerance", "x", DRAWS | IN_QIBENCH, .apply = apply_tolerance,
+    {OPTION_SPECIAL, NULL, NULL, "tolerance", "x", DRAWS | IN_QIBENCH,
+     .apply = option_apply_tolerance,
      .help = "the largest error of a hit, as a share of its patch's diameter (1e-9), or of a pixel "
              "there (0.1px)",
      .commands = FOR_TRACE | FOR_SPEED},
-    {OPTION_SPECIAL, NULL, NULL, "accuracy", "name", DRAWS, .apply = apply_accuracy,
+    {OPTION_SPECIAL, NULL, NULL, "accuracy", "name", DRAWS, .apply = option_apply_accuracy,
      .help = "a named tolerance: draft (0.1px), pixel (1e-6px), fine (1e-9), exact (1e-14)"},
     {OPTION_FLAG, NULL, NULL, "explain", NULL, IN_QIRENDER, FIELD(explain),
      .help = "after the picture, print what the tolerance cost and what it bought, and what the "
              "next coarser and finer accuracy would change, measured on a sample of the rays"},
-    {OPTION_SPECIAL, NULL, NULL, "aov", "list", IN_QIRENDER, .apply = apply_aov,
+    {OPTION_SPECIAL, NULL, NULL, "aov", "list", IN_QIRENDER, .apply = option_apply_aov,
      .help = "more channels, to NAME.aov.exr (with +FE to the picture): depth,normal,uv,patch,"
              "steps,bound,object"},
-    {OPTION_SPECIAL, NULL, NULL, "pixel", "x,y", IN_QIRENDER, .apply = apply_pixel,
+    {OPTION_SPECIAL, NULL, NULL, "pixel", "x,y", IN_QIRENDER, .apply = option_apply_pixel,
      .help = "instead of a picture, print how this pixel comes about: rays, hits, nets, lights"},
-    {OPTION_SPECIAL, NULL, NULL, "nudge", "x,y", IN_QIRENDER, .apply = apply_nudge,
+    {OPTION_SPECIAL, NULL, NULL, "nudge", "x,y", IN_QIRENDER, .apply = option_apply_nudge,
      .help =
          "move every camera ray by so many pixels, right and down: what changes at 1e-9 hangs on "
          "the last digits"},
-    {OPTION_SPECIAL, NULL, NULL, "prepare", "how", DRAWS | IN_QIBENCH, .apply = apply_prepare,
+    {OPTION_SPECIAL, NULL, NULL, "prepare", "how", DRAWS | IN_QIBENCH,
+     .apply = option_apply_prepare,
      .help = "sub-patches for qi: full, light (few), none (the paper's); full or light by the work",
      .commands = FOR_TRACE | FOR_SPEED},
-    {OPTION_SPECIAL, NULL, NULL, "isa", "name", DRAWS | IN_QIBENCH, .apply = apply_isa,
+    {OPTION_SPECIAL, NULL, NULL, "isa", "name", DRAWS | IN_QIBENCH, .apply = option_apply_isa,
      .help = "instruction set for qi: scalar, avx2, avx512 (the best there is; same pictures)"},
 
     HEADING("Comparing"),
@@ -583,7 +155,7 @@ const OptionRow option_rows[] = {
      .help = "likewise for a warning (1e-6)"},
     {OPTION_NUMBER, NULL, NULL, "warnpercent", "x", IN_QICOMPARE, FIELD(warn_percent), CLIP(0, 100),
      .help = "likewise for a warning (0)"},
-    {OPTION_SPECIAL, NULL, NULL, "region", "x,y,w,h", IN_QICOMPARE, .apply = apply_region,
+    {OPTION_SPECIAL, NULL, NULL, "region", "x,y,w,h", IN_QICOMPARE, .apply = option_apply_region,
      .help = "compare only this part of the pictures"},
     {OPTION_INT, NULL, NULL, "places", "n", IN_QICOMPARE, FIELD(places), CLIP(0, 100),
      .help = "look into so many of the worst places (10): enlarged, told, and why they differ"},
@@ -605,7 +177,7 @@ const OptionRow option_rows[] = {
      .help = "speed lattices: up to n patches (1000000)"},
     {OPTION_SPECIAL, NULL, NULL, "size", "WxH", IN_QIBENCH, .apply = bench_apply_size,
      .commands = FOR_SWEEP, .help = "sweep: of the pictures (320x240)"},
-    {OPTION_SPECIAL, NULL, NULL, "include", "folder", IN_QIBENCH, .apply = apply_library,
+    {OPTION_SPECIAL, NULL, NULL, "include", "folder", IN_QIBENCH, .apply = option_apply_library,
      .commands = FOR_SWEEP, .help = "sweep: where includes are looked for; may be repeated"},
     {OPTION_TEXT, NULL, NULL, "html", "folder", IN_QIBENCH, FIELD(bench.html),
      .commands = FOR_SWEEP, .help = "sweep: also write index.html, sweep.csv and sweep.json there"},
@@ -621,13 +193,13 @@ const OptionRow option_rows[] = {
     HEADING("The run"),
     {OPTION_INT, "WT", "Work_Threads", NULL, "n", IN_ALL, FIELD(threads), CLIP(0, 512),
      .help = "threads (0: as many as there are cores); the picture is the same"},
-    {OPTION_SPECIAL, "BS", "Render_Block_Size", NULL, "n", DRAWS, .apply = apply_block_size,
+    {OPTION_SPECIAL, "BS", "Render_Block_Size", NULL, "n", DRAWS, .apply = option_apply_block_size,
      .help = "side of a tile (32); method 1 of anti-aliasing depends on it"},
     {OPTION_FLAG, "C", "Continue_Trace", "continue", NULL, IN_ALL, FIELD(continue_trace),
      .help = "take up a render that was interrupted; of an animation, frames that are there stay"},
     {OPTION_FLAG, "V", "Verbose", "verbose", NULL, IN_ALL, FIELD(verbose),
      .help = "progress and statistics (default; pov2qi: notes, off by default); -V silent"},
-    {OPTION_SPECIAL, "D", NULL, NULL, NULL, IN_ALL, .apply = apply_display,
+    {OPTION_SPECIAL, "D", NULL, NULL, NULL, IN_ALL, .apply = option_apply_display,
      .help = "taken for POV-Ray's sake: there is no window"},
     {OPTION_FLAG, NULL, "Display", NULL, NULL, IN_ALL, FIELD(display)},
     {OPTION_FLAG, "P", "Pause_When_Done", NULL, NULL, IN_ALL, FIELD(pause),
@@ -637,10 +209,10 @@ const OptionRow option_rows[] = {
     {OPTION_FLAG, NULL, NULL, "patch-solids", NULL, IN_ALL, FIELD(patch_solids),
      .help = "closed unions of patches that have an interior are solids in intersections and "
              "differences; to POV-Ray patches have no inside"},
-    {OPTION_SPECIAL, NULL, NULL, "allow-write", "folder", IN_ALL, .apply = apply_allow_write,
+    {OPTION_SPECIAL, NULL, NULL, "allow-write", "folder", IN_ALL, .apply = option_apply_allow_write,
      .help = "files that the scene writes (#fopen, #write) may be made in this folder and those "
              "below it; without it a scene writes no files; may be repeated"},
-    {OPTION_SPECIAL, NULL, NULL, "limit", "name=n", IN_ALL, .apply = apply_limit,
+    {OPTION_SPECIAL, NULL, NULL, "limit", "name=n", IN_ALL, .apply = option_apply_limit,
      .help = "the most that reading a scene may take: calls, elements (of arrays), includes, "
              "megabytes, nesting, objects, seconds, string (bytes), tokens"},
     {OPTION_FLAG, NULL, NULL, "help", NULL, IN_EVERY, FIELD(help), .help = "this text"},
@@ -652,9 +224,11 @@ const OptionRow option_rows[] = {
      .help = "a script that makes bash complete this program's words"},
 
     HEADING("Messages"),
-    {OPTION_SPECIAL, "GA", NULL, NULL, "[name]", IN_ALL, FIELD(all_file), .apply = apply_console,
+    {OPTION_SPECIAL, "GA", NULL, NULL, "[name]", IN_ALL, FIELD(all_file),
+     .apply = option_apply_console,
      .help = "shows all messages, -GA only errors; with a name, they are copied to that file"},
-    {OPTION_SPECIAL, NULL, "All_Console", NULL, "on|off", IN_ALL, .apply = apply_all_console},
+    {OPTION_SPECIAL, NULL, "All_Console", NULL, "on|off", IN_ALL,
+     .apply = option_apply_all_console},
     {OPTION_TEXT, NULL, "All_File", NULL, "name", IN_ALL, FIELD(all_file)},
     STREAM("GD", "Debug", CONSOLE_DEBUG, "likewise what the scene prints with #debug"),
     STREAM("GF", "Fatal", CONSOLE_FATAL, "likewise errors"),
@@ -670,9 +244,9 @@ const OptionRow option_rows[] = {
     {OPTION_INT, "KFF", "Final_Frame", NULL, "n", IN_ALL, FIELD(final_frame), FRAMES,
      .help = "the number of the last frame; makes it an animation, a picture a frame"},
     {OPTION_SPECIAL, "KI", "Initial_Clock", NULL, "x", IN_ALL, FIELD(initial_clock),
-     .apply = apply_float, .help = "the clock of the first frame (0)"},
+     .apply = option_apply_float, .help = "the clock of the first frame (0)"},
     {OPTION_SPECIAL, "KF", "Final_Clock", NULL, "x", IN_ALL, FIELD(final_clock),
-     .apply = apply_float, .help = "the clock of the last frame (1)"},
+     .apply = option_apply_float, .help = "the clock of the last frame (1)"},
     {OPTION_FLAG, "KC", "Cyclic_Animation", NULL, NULL, IN_ALL, FIELD(cyclic),
      .help = "the frame after the last one would be the first again"},
     {OPTION_NUMBER, "SF", "Subset_Start_Frame", NULL, "x", IN_ALL, FIELD(subset_start),
@@ -685,7 +259,7 @@ const OptionRow option_rows[] = {
      .help = "of several cameras the first one is meant"},
 
     {OPTION_INT, NULL, "Bits_Per_Colour", NULL, "n", DRAWS, FIELD(bits), CLIP(5, 16)},
-    {OPTION_SPECIAL, NULL, "Include_Ini", NULL, "name", IN_ALL, .apply = apply_include_ini},
+    {OPTION_SPECIAL, NULL, "Include_Ini", NULL, "name", IN_ALL, .apply = option_apply_include_ini},
     COMMAND("Pre_Scene_Command"),
     COMMAND("Pre_Frame_Command"),
     COMMAND("Post_Frame_Command"),

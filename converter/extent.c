@@ -29,8 +29,7 @@ static Box transformed_box(Box b, const Transform *t) {
     return out;
 }
 
-// The rotation that takes the z axis to the unit vector axis, about an axis in the plane z = 0.
-static Transform axis_rotation(Vec3 axis) {
+Transform axis_rotation(Vec3 axis) {
     Vec3 about = vec3(-axis.y, axis.x, 0);
     double angle = acos(fmax(-1.0, fmin(1.0, axis.z)));
     if (fabs(axis.z) > 1.0 - 1e-10) {
@@ -58,7 +57,8 @@ static Box axial_box(const Object *object, Vec3 origin, Vec3 axis, double radius
     t = transform_compose(&t, &place);
     if (object->has_transform)
         t = transform_compose(&t, &object->transform);
-    return transformed_box((Box){vec3(-radius, -radius, low), vec3(radius, radius, high)}, &t);
+    Box box = {vec3(-radius, -radius, low), vec3(radius, radius, high)};
+    return transformed_box(object->type == OBJECT_DISC ? round_box(box) : box, &t);
 }
 
 // POV-Ray's axis ends where the radius is larger, at the base when the radii are equal; the four
@@ -137,9 +137,12 @@ static Box leaf_box(const ObjectNode *node) {
     case OBJECT_SMOOTH_TRIANGLE:
         return points_box(object->shape.smooth_triangle.p, 3);
     default: {
-        Box box = solid_extent(node);
+        Box box;
+        if (moved_extent(object, &box))
+            return box;
+        box = solid_extent(node);
         return object->has_transform && box.high.x < HUGE_EXTENT
-                   ? transformed_box(box, &object->transform)
+                   ? transformed_box(round_box(box), &object->transform)
                    : box;
     }
     }
@@ -168,8 +171,6 @@ static bool joint_box(const ObjectNode *list, Box *out) {
     bool any = false;
     for (; list; list = list->next) {
         Box box;
-        if (list->light)
-            continue;
         if (!node_extent(list, &box))
             return false;
         *out = box_union(*out, box);
@@ -236,6 +237,12 @@ static Box sound_box(Box box) {
     return box;
 }
 
+// Meshes and quadrics move the box that they had at first.
+void extent_begin(ObjectNode *node) {
+    node->has_box = true;
+    node->box = round_box(solid_extent(node));
+}
+
 void csg_box_begin(ObjectNode *node) {
     Box box;
     bool all = node->keyword == KW_intersection || node->keyword == KW_difference;
@@ -246,8 +253,7 @@ void csg_box_begin(ObjectNode *node) {
 
 // Most leaves are measured anew, as if there were no bounds.
 void extent_move(ObjectNode *node, const Move *move) {
-    bool keeps = node->object.type == OBJECT_MESH || node->object.type == OBJECT_QUADRIC;
-    node->boxed = node->boxed && keeps;
+    node->boxed = false;
     node->clip_box =
         node->clips && (node->object.type == OBJECT_PLANE || node->object.type == OBJECT_POLY);
     if (node->has_box)
@@ -255,7 +261,11 @@ void extent_move(ObjectNode *node, const Move *move) {
 }
 
 void extent_bound(ObjectNode *node) {
-    node->boxed = node->bounds || node->clips;
+    // These are measured once more when all of their own statement has been read.
+    bool anew = !node->ended &&
+                (node->object.type == OBJECT_BLOB || node->object.type == OBJECT_HEIGHT_FIELD);
+    node->ended = true;
+    node->boxed = !anew && (node->bounds || node->clips);
     if (node->has_box)
         node->has_box = shrink(node->bounds, &node->box) && shrink(node->clips, &node->box);
 }

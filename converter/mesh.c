@@ -84,6 +84,7 @@ static void keep_mesh(Converter *cv, MeshReader *r, ObjectNode *object) {
         object->textured = object->textured && mesh->faces[i].texture[0] != NO_INDEX;
     object->mesh = mesh;
     object->surface = !mesh->has_inside;
+    extent_begin(object);
     array_free(&r->points);
     array_free(&r->normals);
     array_free(&r->uv);

@@ -319,6 +319,7 @@ struct ObjectNode {
     bool ignored;                     // POV-Ray leaves it out
     Box box;                          // of a CSG, as extent.c keeps it
     bool has_box;
+    bool ended;    // the statement that made it; what follows are modifiers of object { }
     bool boxed;    // a leaf: bounds and clips stand around its box, as extent.c takes them
     bool clip_box; // a plane or poly that was moved with its clips: it has the first one's box
     bool flipped;  // a CSG: inverted an odd number of times
@@ -363,7 +364,11 @@ ParseShape parse_patch_data, parse_mesh, parse_mesh2, parse_height_field, parse_
 void read_floats(Converter *cv, double *out, uint32_t count);
 uint32_t read_count(Converter *cv, const char *what, int least);
 bool solid_is_finite(const Object *object);
-Box solid_extent(const ObjectNode *node);   // extent_solid.c
+Box solid_extent(const ObjectNode *node);
+// The same in the world, of those that POV-Ray moves point by point.
+bool moved_extent(const Object *object, Box *out); // extent_solid.c
+// The rotation that takes the z axis to the unit vector axis, about an axis in the plane z = 0.
+Transform axis_rotation(Vec3 axis);
 bool shape_is_finite(const Object *object); // are the numbers that were read finite?
 void shape_move(ObjectNode *object, const Move *move);
 bool keyword_is_csg(int keyword);
@@ -375,6 +380,7 @@ bool node_extent(const ObjectNode *object, Box *out);
 bool node_extent_cuts(const ObjectNode *object);
 // The kept box of a CSG: from its children, after a transform.
 void csg_box_begin(ObjectNode *object);
+void extent_begin(ObjectNode *object); // of meshes and quadrics
 void extent_move(ObjectNode *object, const Move *move);
 void extent_bound(ObjectNode *object); // of any object, at the end of its modifiers
 

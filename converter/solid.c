@@ -152,6 +152,7 @@ static void parse_quadric(Converter *cv, ObjectNode *object) {
     quadric->linear = parse_vector(cv);
     optional_comma(cv);
     quadric->constant = parse_float(cv);
+    extent_begin(object);
 }
 
 static void parse_superellipsoid(Converter *cv, ObjectNode *object) {

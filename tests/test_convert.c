@@ -478,6 +478,26 @@ static void extents_are_those_of_povray(void **state) {
         "union { sphere { 0, 1 } sphere { 1, 1 } bounded_by { box { -0.5, 0.5 } } translate x }",
         "bicubic_patch { type 1 " PATCH_POINTS " rotate 30*y scale 0.1 }",
         "light_source { y, 1 }",
+        "union { light_source { y, 1 } sphere { 2, 0.5 } }",
+        // The egg's middle, and the curve between two points of a sor, are wider than the points.
+        "ovus { 1.1, 0.7 rotate 20*x }",
+        "ovus { 0.7, 0.9 }",
+        "sor { 5, <0.3, -0.2>, <1, 0.3>, <0.5, 1>, <0.7, 2>, <0.3, 3> rotate <10, 20, 30> }",
+        // Boxes that grow with each turn, and shapes that are measured anew.
+        "quadric { <1, 2, 0.5>, 0, <0, 0.3, 0>, -1 }",
+        "quadric { <-1, -2, -0.5>, 0, 0, 1 rotate <10, 20, 30> rotate <-40, 0, 5> translate x }",
+        "quadric { <1, 0, 1>, 0, 0, -1 scale <1.1, 0.7, -2> }",
+        "mesh { triangle { 0, <1.1, 0.3, 0>, <0.2, 1, 0.7> } rotate <10, 20, 30> rotate -40*x }",
+        "sphere_sweep { b_spline 4, 0, 0.3, x, 0.4, x + y, 0.2, <0, 1, 1>, 0.5 rotate 20*x "
+        "rotate 30*z }",
+        "polygon { 4, <0, 0, 1>, <1, 0, 1.5>, <1, 1, 1.5>, <0, 0, 1> rotate <10, 20, 30> }",
+        // Around components are balls, also of a cylinder; clips and bounds of its own come too
+        // late.
+        "blob { threshold 0.5 cylinder { x, <2, 1, 1>, 0.6, 1 } sphere { y, 1.1, 0.8 } }",
+        "blob { threshold 0.5 sphere { x, 1.2, 1 } sphere { 0, 1.1, -1 } clipped_by { box { 0, 1 } "
+        "} rotate 30*y }",
+        "object { blob { threshold 0.5 sphere { x, 1.2, 1 } } clipped_by { box { 0, 1 } } }",
+        "height_field { function 20, 20 { x*y } clipped_by { sphere { 0, 0.5 } } rotate 20*y }",
     };
     enum { COUNT = sizeof objects / sizeof *objects };
     char text[16384] = "", line[1024];

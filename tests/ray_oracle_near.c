@@ -339,3 +339,45 @@ bool ray_oracle_way(const PatchDef *def, const Ray *ray, const double from[2], c
                     double reach) {
     return way_within(def, ray, from, to, reach, 0) || way_within(def, ray, from, to, reach, 4);
 }
+
+// One step of (u,v) towards the point nearest to ray's at depth t. Returns the distance before it.
+static Real step_to(const PatchDef *def, const Ray *ray, Real t, Real at[2]) {
+    Real s[3][3], q[3], su[3], sv[3];
+    oracle_jet_less(def, ray->org, at[0], at[1], true, s);
+    for (int axis = 0; axis < 3; axis++) {
+        q[axis] = s[axis][0] - t * vec_get(ray->dir, axis);
+        su[axis] = s[axis][1], sv[axis] = s[axis][2];
+    }
+    // Along the longer tangent, and along what of the other is across it: on ribbons products of
+    // the tangents would lose all digits.
+    Real off = sqrtl(along(q, q));
+    int first = along(su, su) >= along(sv, sv) ? 0 : 1;
+    const Real *a = first == 0 ? su : sv, *b = first == 0 ? sv : su;
+    Real length = sqrtl(along(a, a)), e[3], across[3];
+    if (!(length > 0))
+        return off;
+    for (int axis = 0; axis < 3; axis++)
+        e[axis] = a[axis] / length;
+    Real share = along(e, b);
+    for (int axis = 0; axis < 3; axis++)
+        across[axis] = b[axis] - share * e[axis];
+    Real square = along(across, across), y = square > 0 ? along(across, q) / square : 0;
+    Real x = (along(e, q) - share * y) / length;
+    at[first] = fminl(fmaxl(at[first] - x, 0), 1);
+    at[1 - first] = fminl(fmaxl(at[1 - first] - y, 0), 1);
+    return off;
+}
+
+bool ray_oracle_along(const PatchDef *def, const Ray *ray, const double from[2], double t1,
+                      double reach) {
+    enum { STEPS = 32, TRIES = 24 };
+    Real at[2] = {from[0], from[1]};
+    for (int n = 0; n <= STEPS; n++) {
+        bool close = false;
+        for (int k = 0; !close && k < TRIES; k++)
+            close = step_to(def, ray, (Real)t1 * n / STEPS, at) <= reach;
+        if (!close)
+            return false;
+    }
+    return true;
+}

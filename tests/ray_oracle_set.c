@@ -4,10 +4,11 @@
 #include <stdlib.h>
 
 enum {
-    CUBIC_LEVELS = 3, // of a patch's tree: 4^levels leaves
-    HIGH_LEVELS = 2,  // of degrees above 4
-    MANY_LEVELS = 1,  // where there are
-    MANY = 256,       // patches
+    CUBIC_LEVELS = 3,   // of a patch's tree: 4^levels leaves
+    HIGH_LEVELS = 2,    // of degrees above 4
+    MANY_LEVELS = 1,    // where there are more than
+    MANY = 256,         // patches
+    VERY_MANY = 100000, // and of so many none is cut
 };
 
 // Control points of a part, x, y, z and weights as in OracleLeaf, not rounded to double yet: each
@@ -184,6 +185,17 @@ static void halve_both(Net *low, Net *high, Rect *first, Rect *second) {
         second->v += first->wv;
 }
 
+static void add_leaf(Cutter *cutter, const Net *net, OracleNode *node, int lane, Rect rect) {
+    RayOracleSet *set = cutter->set;
+    OracleLeaf *leaf = &set->leaves[set->leaf_count];
+    *leaf =
+        (OracleLeaf){.u = rect.u, .v = rect.v, .wu = rect.wu, .wv = rect.wv, .net = cutter->nets};
+    leaf_of(net, leaf);
+    cutter->nets += (net->rational ? 4 : 3) * count_of(net);
+    box_of(&set->patches[cutter->patch], net, node, lane);
+    node->child[lane] = ~set->leaf_count++;
+}
+
 // Cuts the part into four, and so on for `levels` in all. Returns the node over it. The part is
 // lost.
 static int32_t cut(Cutter *cutter, Net *part, int levels, Rect rect) {
@@ -201,25 +213,25 @@ static int32_t cut(Cutter *cutter, Net *part, int levels, Rect rect) {
         if (levels > 1) {
             node->child[k] = cut(cutter, quarter[k], levels - 1, rects[k]);
             box_over(node, k, &set->nodes[node->child[k]]);
-            continue;
+        } else {
+            add_leaf(cutter, quarter[k], node, k, rects[k]);
         }
-        OracleLeaf *leaf = &set->leaves[set->leaf_count];
-        *leaf = (OracleLeaf){.u = rects[k].u,
-                             .v = rects[k].v,
-                             .wu = rects[k].wu,
-                             .wv = rects[k].wv,
-                             .net = cutter->nets};
-        leaf_of(quarter[k], leaf);
-        cutter->nets += (quarter[k]->rational ? 4 : 3) * count_of(quarter[k]);
-        box_of(&set->patches[cutter->patch], quarter[k], node, k);
-        node->child[k] = ~set->leaf_count++;
     }
+    return own;
+}
+
+static int32_t leave_whole(Cutter *cutter, const Net *net) {
+    RayOracleSet *set = cutter->set;
+    int32_t own = set->node_count++;
+    set->nodes[own] = NO_NODE;
+    set->nodes[own].patch = cutter->patch;
+    add_leaf(cutter, net, &set->nodes[own], 0, (Rect){0.0, 0.0, 1.0, 1.0});
     return own;
 }
 
 static int levels_of(const RayOracleSet *set, const PatchDef *def) {
     if (set->count > MANY)
-        return MANY_LEVELS;
+        return set->count > VERY_MANY ? 0 : MANY_LEVELS;
     return def->degree_u > 4 || def->degree_v > 4 ? HIGH_LEVELS : CUBIC_LEVELS;
 }
 
@@ -231,6 +243,8 @@ static int32_t cut_patch(RayOracleSet *set, Arena *arena, int patch) {
     size_t leaves = (size_t)1 << 2 * levels, axes = net.rational ? 4 : 3;
     Cutter cutter = {set, arena, patch,
                      ARENA_ARRAY(arena, double, leaves *axes *(size_t)count_of(&net))};
+    if (levels == 0)
+        return leave_whole(&cutter, &net);
     return cut(&cutter, &net, levels, (Rect){0.0, 0.0, 1.0, 1.0});
 }
 
@@ -303,7 +317,7 @@ RayOracleSet *ray_oracle_prepare(Arena *arena, const PatchDef *defs, int count) 
     for (int n = 0; n < count; n++) {
         size_t own = (size_t)1 << 2 * levels_of(set, &defs[n]);
         leaves += own;
-        nodes += own / 3;
+        nodes += own > 1 ? own / 3 : 1;
     }
     set->patches = ARENA_ARRAY(arena, OraclePatch, (size_t)count);
     set->nodes = ARENA_ARRAY(arena, OracleNode, nodes);

@@ -12,7 +12,13 @@
 #include <string.h>
 #include <time.h>
 
-enum { METHODS = METHOD_COUNT, BUCKETS = 40 * 8, SHOWN = 4, MOST_TRIANGLES = 1000 };
+enum {
+    METHODS = METHOD_COUNT,
+    BUCKETS = 40 * 8,
+    SHOWN = 4,
+    MOST_TRIANGLES = 1000,
+    MOST_OTHERS = 100000
+};
 
 typedef struct {
     uint64_t rays, hits, open, verdict[STRESS_VERDICTS];
@@ -267,6 +273,7 @@ static void open_stage(Stage *stage, bool all_methods) {
             continue;
         bool plain = method == METHOD_QI_PAPER || stress_is_triangles((PatchMethod)method);
         if ((method == METHOD_TESSELLATION && embree_missing()) ||
+            (method != METHOD_QI && stage->scene.count > MOST_OTHERS) ||
             (plain && (stage->scene.defs[0].weights || stage->scene.count > MOST_TRIANGLES)))
             continue;
         PatchSetOptions options = patchset_options_default();
@@ -421,7 +428,10 @@ uint64_t stress_run(const StressOptions *options) {
         if (!wants(options->only_case, which->name))
             continue;
         Tally *tally = &tallies[n * METHODS];
-        run_case(options, which, share_of(options, which), tally);
+        double rays = share_of(options, which);
+        if (rays < which->least && !options->only_case)
+            continue;
+        run_case(options, which, rays, tally);
         const Tally *qi = &tally[METHOD_QI];
         failures += failures_of(qi);
         if (options->times && too_slow(qi) && options->scene < 0) {

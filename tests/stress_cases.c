@@ -276,11 +276,13 @@ static void aim_cusp(const StressScene *s, Rng *rng, double unused, StressRay *o
 // ---- The list
 
 #define CASE(name, what, share, rays, make, aim, parameter)                                        \
-    { name, what, share, rays, scene_##make, aim_##aim, parameter, 1e-9, false }
+    { name, what, share, rays, scene_##make, aim_##aim, parameter, 1e-9, false, 0 }
 #define EDGES(name, what, rays, make, parameter)                                                   \
-    { name, what, 1.0, rays, scene_##make, aim_edges, parameter, 1e-9, true }
+    { name, what, 1.0, rays, scene_##make, aim_edges, parameter, 1e-9, true, 0 }
 #define LOOSE(name, tolerance)                                                                     \
-    { name, "another tolerance", 1.0, 20000, scene_teapot, aim_hull, 1.0, tolerance, false }
+    { name, "another tolerance", 1.0, 20000, scene_teapot, aim_hull, 1.0, tolerance, false, 0 }
+#define HUGE(name, what, teapots, least)                                                           \
+    { name, what, 0.2, 1000000, scene_many, aim_hull, teapots, 1e-9, false, least }
 const StressCase stress_cases[] = {
     // Shared edges, corners
     EDGES("edge_watertight", "teapot, at shared edges and corners, from outside and inside", 20000,
@@ -303,6 +305,7 @@ const StressCase stress_cases[] = {
     CASE("range_ends", "t_min and t_max among the crossings", 2, 500, random, range, 0.5),
     CASE("mixed_sizes", "five patches of sizes 1e-6 to 1e6", 1, 2000, mixed_sizes, surface, 0),
     CASE("many_patches", "12,800 different patches", 1, 200000, many, hull, 400),
+    HUGE("million_patches", "1,000,000 different patches", 31250, 1000),
     // Singular
     CASE("collapsed_pole", "teapot, at collapsed sides or 1e-13..0.1 beside", 1, 20000, teapot,
          pole, 1),
@@ -352,6 +355,12 @@ const StressCase stress_cases[] = {
     CASE("self_hit_leaving", "from a hit of the teapot, any way", 1, 20000, teapot, leaving, 1),
     CASE("leaving_random", "from a hit of a wild patch", 1, 500, random, leaving, 0.5),
     CASE("leaving_round", "from a quarter of a torus, exactly round", 0.5, 500, round, leaving, 0),
+    CASE("leaving_collapsed", "from a hit of a patch with sides that are points", 0.5, 500,
+         collapsed, leaving, 0),
+    CASE("leaving_cusp", "from a hit beside a cusp", 0.5, 500, cusp, leaving, 0),
+    CASE("leaving_aspect", "from a hit of a patch 1 : 1e10", 0.5, 500, aspect, leaving, 1e10),
+    CASE("leaving_ribbon", "wild, singular, turned, 1 : 1e10", 0.1, 500, ribbon, leaving, 1e10),
+    CASE("leaving_rational", "weights 1e-6 to 1e6", 0.2, 200, rational, leaving, 6),
     CASE("leaving_sheets", "from one of two sheets 1e-6 apart", 1, 500, thin_sheets, leaving, 1e-6),
     // Infinitely many answers, and none
     CASE("degenerate_point", "all 16 points equal", 0.2, 200, point, point, 0),

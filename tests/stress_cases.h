@@ -55,6 +55,7 @@ typedef struct StressCase {
     double parameter;
     double tolerance; // of the methods; 0: the default
     bool watertight;  // counts separately: only rays at closed edges, judged by what stops them
+    int least;        // rays: fewer are not worth making its scene, and it is left out
 } StressCase;
 
 extern const StressCase stress_cases[];

@@ -375,6 +375,7 @@ StressVerdict stress_judge_left(const StressAnswer *answer, StressTruth *truth,
         const double from[2] = {left->u, left->v}, to[2] = {c->u, c->v};
         if (!((int)left->id == c->patch &&
               ray_oracle_way(&s->defs[c->patch], &r->ray, from, to, 16.0 * reach)) &&
+            !ray_oracle_along(&s->defs[left->id], &r->ray, from, c->t, 16.0 * reach) &&
             !ray_oracle_near(s->oracle, &r->ray, 0.0, c->t, 16.0 * reach))
             return STRESS_MISSED;
     }

@@ -349,13 +349,33 @@ static bool first_depth(Search *q, BezierRect rect, double at[2]) {
     return found;
 }
 
+// Do any depths count where the first form is 0? There the depth is that less any multiple of the
+// form: of a ribbon across the ray, say, whose depths are those of a line and nothing else.
+static bool curve_counts(const Search *q, const Piece *p) {
+    const QiTarget *target = &q->target;
+    int du = target->du, dv = target->dv, count = (du + 1) * (dv + 1);
+    QiForm f = p->forms[0];
+    bool along_u = fabs(f.au) >= fabs(f.av);
+    double times = along_u ? trend_u(p->net.z, du, dv) / f.au : trend_v(p->net.z, du, dv) / f.av;
+    double z[POINTS] = {p->net.z[0]};
+    if (target->rational || !isfinite(times))
+        return true;
+    for (int k = 0; k < count; k++)
+        z[k] = p->net.z[k] - times * (f.bx * p->net.x[k] + f.by * p->net.y[k]);
+    Span depth = span_of(z, count);
+    double slack = 2.0 * (target->frame.slack_z + fabs(times) * form_slack(f, &target->frame));
+    return depth.high + slack >= target->frame.z_low &&
+           depth.low - slack <= qi_list_z_high(&target->list, &target->frame);
+}
+
 // Pieces of a singular J in which the ray is as good as in the surface.
 static inline bool finish_singular(Search *q, int count, const Piece *p, bool least) {
     const QiFrame *frame = &q->target.frame;
     const QiForm *f = p->forms;
     if (!p->regular && p->bounds[0].slope < fmin(fabs(f[0].au), fabs(f[0].av)) &&
         weak_form(&p->net, count, f[1], 16.0 * form_slack(f[1], frame)) &&
-        qi_root_settle_curve(&q->target, p->left, f[0], form_slack(f[0], frame)))
+        (!curve_counts(q, p) ||
+         qi_root_settle_curve(&q->target, p->left, f[0], form_slack(f[0], frame))))
         return true;
     double radius = q->steps <= PATIENCE ? frame->least_tolerance : frame->tolerance;
     bool near = q->target.rational ? within_rational(&p->net, count, radius)

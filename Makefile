@@ -264,10 +264,11 @@ gallery: deps
 	@$(MAKE) --no-print-directory -j$$(nproc) all
 	@tests/gallery.sh
 
+BENCH_ROUNDS ?= 5
 bench: deps
 	@tests/deps.sh libembree-dev
 	@$(MAKE) --no-print-directory -j$$(nproc) all
-	@tests/bench.sh
+	@tests/bench.sh $(BENCH_ROUNDS)
 
 # The trade of speed against accuracy: a page in build/report, and whether errors fall with tolerances.
 # The scenes that are there are measured. study: README's section on how wrong POV-Ray is. accuracy:
@@ -284,9 +285,11 @@ report: deps
 	@build/qibench sweep --rounds $(REPORT_ROUNDS) --size $(REPORT_SIZE) --patience $(REPORT_PATIENCE) \
 	    --html build/report $(REPORT_SCENES)
 	@tests/sweep_check.sh build/report/sweep.csv && echo build/report/index.html
+STUDY_ROUNDS ?= 1
+STUDY_PATIENCE ?= 20
 study: deps
 	@$(MAKE) --no-print-directory -j$$(nproc) all
-	@tests/study.sh
+	@tests/study.sh $(STUDY_ROUNDS) $(STUDY_PATIENCE)
 accuracy: deps
 	@$(MAKE) --no-print-directory -j$$(nproc) all
 	@tests/accuracy.sh

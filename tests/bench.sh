@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
 # Writes the tables of speed into README.md, each between its two marks (<!-- NAME --> and
-# <!-- end of NAME -->). Arguments: rounds (an odd number, 5), then the tables, all unless named:
+# <!-- end of NAME -->), and as a page into build/bench. Arguments: rounds (an odd number, 5), then the tables, all unless named:
 # programs methods picture lattices threads.
 # programs: beside POV-Ray, user seconds of whole runs at 800x600 on one thread, in turn, median; and
 # the share of pixels of the two pictures that differ by more than one step of 8 bits.
@@ -37,6 +37,38 @@ programs() {
     done
 }
 
+# page: the tables that README has between its marks, as one page.
+page() {
+    cat <<'HEAD'
+<!DOCTYPE html>
+<html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width, initial-scale=1">
+<title>Speed</title><style>
+:root{color-scheme:light dark}body{font:16px/1.5 system-ui,sans-serif;max-width:68rem;margin:2rem auto;padding:0 1rem}
+div{overflow-x:auto;margin:1.5rem 0}table{border-collapse:collapse;font-variant-numeric:tabular-nums}
+th,td{text-align:right;padding:.3rem .7rem;border-bottom:1px solid #8886;font-weight:400}
+th:first-child,td:first-child{text-align:left}thead th{font-size:.85rem}
+@media print{body{max-width:none;margin:0}div{overflow:visible}table{font-size:8pt;break-inside:avoid}td,th{padding:.1rem .3rem}}
+</style></head><body><h1>Speed</h1>
+HEAD
+    grep -m1 'model name' /proc/cpuinfo | sed 's/.*: \(.*\)/<p>\1, '"$(nproc) cores, $(date +%F)"'; median of '"$rounds"' rounds.<\/p>/'
+    for name in programs methods picture lattices threads; do
+        echo "<h2>$name</h2>"
+        sed -n "/<!-- $name -->/,/<!-- end of $name -->/p" README.md | grep -v '^<!--' |
+            sed 's/&/\&amp;/g; s/</\&lt;/g' | awk -F' *[|] *' '
+            !/^[|]/ { if (open) { print "</tbody></table></div>"; open = 0 } if (NF) print "<p>" $0 "</p>"; next }
+            /^[|][-|]*$/ { next }
+            {
+                cell = open ? "td" : "th"
+                line = open ? "<tr>" : "<div><table><thead><tr>"
+                for (i = 2; i < NF; i++) line = line "<" cell ">" $i "</" cell ">"
+                print line "</tr>" (open ? "" : "</thead><tbody>")
+                open = 1
+            }
+            END { if (open) print "</tbody></table></div>" }'
+    done
+    echo "</body></html>"
+}
+
 for table in "$@"; do
     if [ "$table" = programs ]; then
         programs >"$folder/table"
@@ -46,3 +78,6 @@ for table in "$@"; do
     cat "$folder/table"
     tests/readme_table.sh "$table" "$folder/table"
 done
+mkdir -p build/bench
+page >"$folder/page" && mv "$folder/page" build/bench/index.html
+echo build/bench/index.html

@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# Writes the accuracy study into README.md, between <!-- study --> and <!-- end of study -->. Argument:
-# rounds (an odd number, 1). The scenes that are there are measured; the others are named.
+# Writes the accuracy study into README.md, between <!-- study --> and <!-- end of study -->. Arguments:
+# rounds (an odd number, 1), seconds that a point may take (20). The scenes that are there are measured; the others are named.
 set -eu
 cd "$(dirname "$0")/.."
 folder=$(mktemp -d) found=
@@ -14,6 +14,6 @@ for scene in /usr/share/doc/povray/examples/advanced/teapot/teapot.pov ../shared
     fi
 done
 # shellcheck disable=SC2086
-build/qibench sweep --study --rounds "${1:-1}" $found >"$folder/study"
+build/qibench sweep --study --rounds "${1:-1}" --patience "${2:-20}" $found >"$folder/study"
 cat "$folder/study"
 tests/readme_table.sh study "$folder/study"

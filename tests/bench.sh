@@ -46,7 +46,7 @@ page() {
 :root{color-scheme:light dark}body{font:16px/1.5 system-ui,sans-serif;max-width:68rem;margin:2rem auto;padding:0 1rem}
 div{overflow-x:auto;margin:1.5rem 0}table{border-collapse:collapse;font-variant-numeric:tabular-nums}
 th,td{text-align:right;padding:.3rem .7rem;border-bottom:1px solid #8886;font-weight:400}
-th:first-child,td:first-child{text-align:left}thead th{font-size:.85rem}
+th:first-child,td:first-child{text-align:left}td{white-space:nowrap}thead th{font-size:.85rem}
 @media print{body{max-width:none;margin:0}div{overflow:visible}table{font-size:8pt;break-inside:avoid}td,th{padding:.1rem .3rem}}
 </style></head><body><h1>Speed</h1>
 HEAD

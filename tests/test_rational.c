@@ -313,11 +313,31 @@ static void other_methods_refuse(void **state) {
     }
 }
 
+// Preparing it never ended: its weights alone ask for more pieces than a patch may have, however
+// thick these may be.
+static void weights_to_and_fro(void **state) {
+    (void)state;
+    Patch p = {.s = {.du = 4, .dv = 4}};
+    for (int k = 0; k < 25; k++) {
+        p.s.p[k] = vec3(k / 5 / 4.0, k % 5 / 4.0, k % 3 * 0.1);
+        p.w[k] = k % 2 ? 1e-6 : 1e6;
+    }
+    for (int m = 0; m < METHODS; m++) {
+        PatchSet *set = set_of(methods[m], &p, 1, 1e-9);
+        Ray ray = {vec3(0.4, 0.3, 2.0), vec3(0.1, 0.1, -1.0)};
+        PatchHit hit;
+        assert_true(patchset_intersect(set, &ray, 0.0, INFINITY, 1, NULL, &hit));
+        Vec3 at = vec_madd(ray.org, hit.t, ray.dir);
+        assert_true(vec_length(vec_sub(at, point_of(&p, hit.u, hit.v))) <= 1e-8);
+        patchset_destroy(set);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(sphere_of_octants),  cmocka_unit_test(weights_that_change_nothing),
         cmocka_unit_test(wild_weights),       cmocka_unit_test(other_methods_refuse),
-        cmocka_unit_test(pictures_are_equal),
+        cmocka_unit_test(pictures_are_equal), cmocka_unit_test(weights_to_and_fro),
     };
     return cmocka_run_group_tests_name("rational", tests, NULL, NULL);
 }

@@ -33,6 +33,7 @@ typedef struct {
 typedef struct {
     const RefinePatch *patch;
     double share, size, rounding;
+    double alike; // how far a piece's weights may differ
     size_t limit;
     ARRAY(Cut) cuts;
     ARRAY(double) numbers;
@@ -169,7 +170,7 @@ static bool fine_enough(const Cutter *k, const Piece *p, int depth) {
     size = fmax(size, k->size / 16.0);
     weight_range(p, &least, &most);
     bool flat = thick <= fmax(k->share * size, 20.0 * k->rounding) || depth >= MAX_DEPTH;
-    bool alike = most <= 4.0 * least || depth >= MAX_WEIGHT_DEPTH;
+    bool alike = most <= k->alike * least || depth >= MAX_WEIGHT_DEPTH;
     return flat && alike;
 }
 
@@ -196,7 +197,7 @@ static void cut_rect(Cutter *k, const Piece *p, BezierRect rect, int depth) {
     }
     double least, most;
     weight_range(p, &least, &most);
-    bool across_u = most > 4.0 * least ? cut_weights_across_u(p) : cut_across_u(&p->s);
+    bool across_u = most > k->alike * least ? cut_weights_across_u(p) : cut_across_u(&p->s);
     Piece low, high;
     BezierRect a = rect, b = rect;
     if (across_u)
@@ -224,10 +225,12 @@ static void cut_patch(Cutter *k) {
     }
     k->rounding = (whole.rational ? RATIONAL_ROUNDING : 1.0) * bezier_rounding(&whole.s);
     k->size = bezier_diameter(&whole.s);
+    k->alike = 4.0;
     cut_rect(k, &whole, bezier_whole(), 0);
     while (k->cuts.count > k->limit) {
         k->cuts.count = k->numbers.count = 0;
         k->share *= 1.5;
+        k->alike *= 4.0; // where the weights alone ask for too many
         cut_rect(k, &whole, bezier_whole(), 0);
     }
 }

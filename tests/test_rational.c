@@ -317,10 +317,14 @@ static void other_methods_refuse(void **state) {
 // thick these may be.
 static void weights_to_and_fro(void **state) {
     (void)state;
-    Patch p = {.s = {.du = 4, .dv = 4}};
-    for (int k = 0; k < 25; k++) {
-        p.s.p[k] = vec3(k / 5 / 4.0, k % 5 / 4.0, k % 3 * 0.1);
-        p.w[k] = k % 2 ? 1e-6 : 1e6;
+    static const double w[12] = {6.8e-6, 4e2,   5.4e-4, 7.1e2, 3.3e3, 6,
+                                 3.9e-3, 4.1e5, 4.2e-2, 2e-5,  2.3,   1.8e-4};
+    static const double z[12] = {-0.248, 0.182, 0.86,  0.125, 0.52,  0.453,
+                                 0.125,  0.495, 0.683, -0.22, 0.306, 0.688};
+    Patch p = {.s = {.du = 3, .dv = 2}};
+    for (int k = 0; k < 12; k++) {
+        p.s.p[k] = vec3(k / 3 / 3.0, k % 3 / 2.0, z[k]);
+        p.w[k] = w[k];
     }
     for (int m = 0; m < METHODS; m++) {
         PatchSet *set = set_of(methods[m], &p, 1, 1e-9);

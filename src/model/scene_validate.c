@@ -368,6 +368,30 @@ static void check_list(Check *c, const FieldPath *up, const char *name, const ui
     }
 }
 
+enum { MAX_SHOWN = 1 << 30 }; // leaves that instances show: each has a rank of its own
+
+static uint32_t count_objects(const Scene *scene, uint32_t index) {
+    const Object *object = &scene->objects[index];
+    uint32_t count = 1;
+    for (uint32_t i = 0; object_is_tree(object) && i < object->shape.children.count; i++)
+        count += count_objects(scene, object->shape.children.items[i]);
+    return count;
+}
+
+static void check_shown(Check *c) {
+    const Scene *scene = c->scene;
+    uint64_t shown = 0;
+    uint32_t *sizes = ARENA_ARRAY(c->scratch, uint32_t, scene->definition_count);
+    for (uint32_t i = 0; i < scene->definition_count; i++)
+        sizes[i] = count_objects(scene, scene->definitions[i]);
+    for (uint32_t i = 0; i < scene->object_count; i++)
+        if (scene->objects[i].type == OBJECT_INSTANCE)
+            shown += sizes[scene->objects[i].shape.instance.definition];
+    if (shown > MAX_SHOWN)
+        refuse(c, NULL, "the instances show %llu objects, more than %d", (unsigned long long)shown,
+               MAX_SHOWN);
+}
+
 static void check_objects(Check *c) {
     const Scene *scene = c->scene;
     check_list(c, NULL, "objects", scene->roots, scene->root_count, 0, true);
@@ -376,6 +400,7 @@ static void check_objects(Check *c) {
     for (uint32_t i = 0; i < scene->object_count; i++)
         if (!c->met[i])
             refuse(c, NULL, "object %u is part of no tree", i);
+    check_shown(c);
 }
 
 // ---- the scene ------------------------------------------------------------------------------

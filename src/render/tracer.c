@@ -2,6 +2,8 @@
 // One ray: nearest hit, shade or sky (facts: rendering 4.1); and what surrounds it: the tables made
 // once per scene, the tracer of a thread, the bodies the camera stands in.
 #include "render/shading.h"
+
+#include "base/array.h"
 #include "render/story.h"
 
 #include "noise/noise.h"
@@ -26,21 +28,41 @@ static Quality quality_of(int level) {
     };
 }
 
-static void mark_hollow(Shading *shading, uint32_t object, uint32_t instance) {
-    const Object *part = &shading->scene->objects[object];
-    if (!object_is_tree(part))
-        shading->hollow[body_of(shading->scene, object, instance)] = part->hollow;
-    for (uint32_t i = 0; object_is_tree(part) && i < part->shape.children.count; i++)
-        mark_hollow(shading, part->shape.children.items[i], instance);
+// Leaf after leaf of a definition, the interior and whether it is hollow; equal ones behind each
+// other once.
+typedef ARRAY(uint32_t) Leaves;
+
+static void list_leaves(const Scene *scene, uint32_t object, Leaves *leaves) {
+    const Object *part = &scene->objects[object];
+    if (object_is_tree(part)) {
+        for (uint32_t i = 0; i < part->shape.children.count; i++)
+            list_leaves(scene, part->shape.children.items[i], leaves);
+        return;
+    }
+    const Object *last = NULL;
+    if (leaves->count > 0)
+        last = &scene->objects[leaves->items[leaves->count - 1]];
+    if (!last || last->interior != part->interior || last->hollow != part->hollow)
+        array_push(leaves, object);
 }
 
-// Opaque if all textures are that it gives to its parts.
-static void prepare_instance(Shading *shading, uint32_t index) {
+// Opaque if all textures are that it gives to its parts. Objects of one body that do not agree
+// whether it is hollow: the last decides, as in POV-Ray.
+static void prepare_instance(Shading *shading, uint32_t index, const Leaves *leaves) {
     const InstanceShape *shape = &shading->scene->objects[index].shape.instance;
     ObjectInfo *info = &shading->objects[index];
     for (uint32_t i = 0; info->opaque && i < shape->texture_count; i++)
         info->opaque = texture_is_opaque(shading->textures, shape->textures[2 * i + 1]);
-    mark_hollow(shading, shading->scene->definitions[shape->definition], index);
+    for (size_t i = 0; i < leaves->count; i++)
+        shading->hollow[body_of(shading->scene, leaves->items[i], index)] =
+            shading->scene->objects[leaves->items[i]].hollow;
+}
+
+static Leaves *list_definitions(const Scene *scene, Arena *scratch) {
+    Leaves *lists = ARENA_ARRAY(scratch, Leaves, scene->definition_count);
+    for (uint32_t i = 0; i < scene->definition_count; i++)
+        list_leaves(scene, scene->definitions[i], &lists[i]);
+    return lists;
 }
 
 static void prepare_objects(Shading *shading) {
@@ -49,18 +71,24 @@ static void prepare_objects(Shading *shading) {
     size_t bodies = (size_t)scene->interior_count + scene->object_count;
     shading->hollow = ARENA_ARRAY(shading->arena, bool, bodies);
     bool any_clear = false;
+    Arena *scratch = arena_create();
+    Leaves *leaves = list_definitions(scene, scratch);
     for (uint32_t i = 0; i < scene->object_count; i++) {
         const Object *object = &scene->objects[i];
         ObjectInfo *info = &shading->objects[i];
         info->body = body_of(scene, i, NO_INDEX);
         info->opaque = surface_is_opaque(shading->textures, object);
-        if (object->type == OBJECT_INSTANCE)
-            prepare_instance(shading, i);
+        bool instance = object->type == OBJECT_INSTANCE;
+        if (instance)
+            prepare_instance(shading, i, &leaves[object->shape.instance.definition]);
         any_clear = any_clear || !info->opaque;
         shading->groups |= object->no_global_lights;
-        // Objects of one body that do not agree: the last decides, as in POV-Ray.
-        shading->hollow[info->body] = object->hollow;
+        if (!instance)
+            shading->hollow[info->body] = object->hollow;
     }
+    for (uint32_t i = 0; i < scene->definition_count; i++)
+        array_free(&leaves[i]);
+    arena_destroy(scratch);
     shading->all_opaque = true;
     for (uint32_t i = 0; i < scene->object_count; i++) {
         const Object *object = &scene->objects[i];

@@ -158,9 +158,9 @@ static const char FOG[] =
     "#version 3.7; global_settings { assumed_gamma 1 }\n"
     "camera { location <0, 9, -16> right 4/3*x look_at <0, 0, 3> angle 50 }\n"
     "light_source { <-200, 300, -150> 1 }\n"
-    "plane { y, 0 pigment { checker rgb 0.6 rgb 0.4 } } fog { distance 3 rgb 0.7 }\n"
+    "plane { y, 0 pigment { checker rgb 0.6 rgb 0.4 } } fog { distance 12 rgb 0.7 }\n"
     "#declare S = seed(3);\n"
-    "#macro Make() union { box { <-1, 0, -1>, <1, 1.9, 1> }\n"
+    "#macro Make() union { box { <-0.05, 0.1, -0.4>, <0.05, 1.9, 0.4> }\n"
     "  #for (I, 0, 30) sphere { <0.02*I, 2.2, 0>, 0.1 pigment { rgb x } } #end } #end\n"
     "#macro Copies() #for (J, 0, 149) object { Thing() pigment { rgbf <0.6,0.9,0.3,0.8> }\n"
     "  #if (mod(J, 2)) hollow #end translate <16*(rand(S)-0.5), 0, 16*rand(S)-5> } #end #end\n";
@@ -187,7 +187,7 @@ static void check_pictures(const char *name, const char *stage, const char *swit
 static void test_pictures(void **state) {
     (void)state;
     check_pictures("solids", STAGE, "+W160 +H120 -D -A", true);
-    check_pictures("fog", FOG, "+W120 +H90 -D -A", true);
+    check_pictures("fog", FOG, "+W160 +H120 -D -A", true);
     check_pictures("patches", BOWLS, "+W120 +H90 -D -A", false);
     check_pictures("triangles", BOWLS, "+W120 +H90 -D -A --method facets", false);
     assert_int_equal(count_type(convert_with(BOWLS, SHARED), OBJECT_PATCH), 20);

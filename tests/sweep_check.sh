@@ -7,7 +7,8 @@
 # Of POV-Ray's triangles the pixels whose rays meet what they meet in truth must come nearer; where the
 # whole picture does not, because finer triangles lose a ray that coarser ones kept, that is a finding,
 # named with its worst pixel. So is what flatness does where it begins to cut neighbours differently: more
-# rays slip through the cracks, and light does. POV-Ray itself must be as far off as our copy of its triangles.
+# rays slip through the cracks, and light does. And where all hits come nearer but flat triangles at the edge
+# of a shadow, which hide the light from each other or not, change single pixels. POV-Ray itself must be as far off as our copy of its triangles.
 # Last line: how many points were judged and how many are wrong; exit status 1 if any is.
 set -eu
 awk -F, '
@@ -18,6 +19,7 @@ awk -F, '
         kind = $at["scene"] " " method " " $at["prepare"] ($at["flatness"] > 0 ? " flatness" : "")
         name = kind " " $at["tolerance"] $at["u_steps"] ($at["flatness"] > 0 ? " " $at["flatness"] : "")
         rms = $at["picture_rms_steps"]; position = $at["position_max_diameters"]
+        normal = $at["normal_rms_degrees"]; position_rms = $at["position_rms_diameters"]
         same = $at["picture_rms_same_hits_steps"]
         judged++
         if (method == "qi" && position > $at["tolerance"] + $at["rounding_diameters"]) {
@@ -43,6 +45,11 @@ awk -F, '
                 print "finding: " name ": RMS grows from " last_rms " to " rms " by cracks between patches cut differently (" \
                     $at["pin_hole_pixels"] " pin-holes, " 100 * $at["edge_leaks_share"] " % of edge rays lost; worst: pixel " \
                     $at["worst_x"] "," $at["worst_y"] ", " $at["worst_steps"] " steps)"
+            else if (grows && method == "facets" && normal < last_normal && position_rms < last_position_rms)
+                print "finding: " name ": RMS grows from " last_rms " to " rms " by single pixels (" 100 * $at["pixels_off_share"] \
+                    " % are off by more than a step; worst: " $at["worst_x"] "," $at["worst_y"] ", " $at["worst_steps"] \
+                    " steps), while hits come nearer (" last_position_rms " to " position_rms " diameters) and so do normals (" \
+                    last_normal " to " normal " degrees)"
             else if (grows) {
                 print name ": RMS grows from " last_rms " to " rms; wrong++
             }
@@ -50,7 +57,7 @@ awk -F, '
                 print name ": position grows from " last_position " to " position; wrong++
             }
         }
-        last = kind; last_rms = rms; last_position = position; last_same = same
+        last = kind; last_rms = rms; last_position = position; last_same = same; last_normal = normal; last_position_rms = position_rms
         last_cracks = $at["pin_hole_pixels"] + $at["edge_leaks_share"]
     }
     END {

@@ -175,18 +175,6 @@ static Part judge_strip(const Tube *tube, const Strip *strip, Seen *seen) {
     return level && small ? PART_OFF : PART_OPEN;
 }
 
-static void halve_line(Real *low, Real *high, int n, int step) {
-    Real row[ORACLE_SIDE];
-    for (int i = 0; i <= n; i++)
-        row[i] = low[i * step];
-    for (int k = 0; k <= n; k++) {
-        low[k * step] = row[0];
-        high[(n - k) * step] = row[n - k];
-        for (int i = 0; i < n - k; i++)
-            row[i] = 0.5L * (row[i] + row[i + 1]);
-    }
-}
-
 // Has strips[0] a part that is? Of each halved one both halves are looked at, one after the other;
 // there is room for NEAR_DEPTH + 2.
 static bool enters(const Tube *tube, Strip *strips) {
@@ -205,9 +193,9 @@ static bool enters(const Tube *tube, Strip *strips) {
         for (int c = 0; c < (tube->rational ? 4 : 3); c++) {
             Real *p = s->p[c], *b = strips[top].p[c];
             for (int k = 0; along_u && k <= nv; k++)
-                halve_line(p + k, b + k, nu, nv + 1);
+                oracle_halve_line(p + k, b + k, nu, nv + 1);
             for (int k = 0; !along_u && k < count; k += nv + 1)
-                halve_line(p + k, b + k, nv, 1);
+                oracle_halve_line(p + k, b + k, nv, 1);
         }
         top++;
     }

@@ -58,27 +58,15 @@ static void net_of(const PatchDef *def, OraclePatch *patch, Net *net) {
     }
 }
 
-static void halve_line(Real *low, Real *high, int n, int step) {
-    Real row[ORACLE_SIDE];
-    for (int i = 0; i <= n; i++)
-        row[i] = low[i * step];
-    for (int k = 0; k <= n; k++) {
-        low[k * step] = row[0];
-        high[(n - k) * step] = row[n - k];
-        for (int i = 0; i < n - k; i++)
-            row[i] = 0.5L * (row[i] + row[i + 1]);
-    }
-}
-
 // The first half stays in `low`.
 static void halve(Net *low, Net *high, bool along_u) {
     int nu = low->nu, nv = low->nv;
     high->nu = nu, high->nv = nv, high->rational = low->rational;
     for (int c = 0; c < 4; c++) {
         for (int j = 0; along_u && j <= nv; j++)
-            halve_line(low->p[c] + j, high->p[c] + j, nu, nv + 1);
+            oracle_halve_line(low->p[c] + j, high->p[c] + j, nu, nv + 1);
         for (int i = 0; !along_u && i <= nu; i++)
-            halve_line(low->p[c] + i * (nv + 1), high->p[c] + i * (nv + 1), nv, 1);
+            oracle_halve_line(low->p[c] + i * (nv + 1), high->p[c] + i * (nv + 1), nv, 1);
     }
 }
 

@@ -48,6 +48,19 @@ struct RayOracleSet {
 // for.
 void oracle_jet_less(const PatchDef *def, Vec3 from, Real u, Real v, bool slopes, Real s[3][3]);
 
+// A line of n + 1 control points, `step` apart, cut in half: the first half stays in `low`.
+static inline void oracle_halve_line(Real *low, Real *high, int n, int step) {
+    Real row[ORACLE_SIDE];
+    for (int i = 0; i <= n; i++)
+        row[i] = low[i * step];
+    for (int k = 0; k <= n; k++) {
+        low[k * step] = row[0];
+        high[(n - k) * step] = row[n - k];
+        for (int i = 0; i < n - k; i++)
+            row[i] = 0.5L * (row[i] + row[i + 1]);
+    }
+}
+
 // One patch as a single leaf, without boxes: the memory is the caller's (net: 4 x ORACLE_POINTS).
 void oracle_patch_whole(const PatchDef *def, OraclePatch *patch, OracleLeaf *leaf, double *net);
 

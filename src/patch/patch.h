@@ -108,7 +108,8 @@ bool patchset_intersect_leaving(const PatchSet *set, const Ray *ray, double t_ma
 // From which t on a ray that starts at a hit (org: the hit's point as computed, dir any) is clear
 // of the surface that it leaves: to be its t_min. Derived from the hit's bound: what lies before is
 // within ten bounds of the ray all the way from its start (clearance.c), so a sheet farther away
-// than that is never lost. def: the patch that was hit.
+// than that is never lost. def: the patch that was hit. Less than 1 us; where the surface has to be
+// followed, beside folds of very long ribbons, 20 us and up to some 1,000.
 double patch_clearance(const PatchDef *def, const PatchHit *hit, const Ray *ray);
 // Is there any?
 bool patchset_occluded(const PatchSet *set, const Ray *ray, double t_min, double t_max,

@@ -40,14 +40,16 @@ static bool parameters_of(const BezierJet *s, Vec3 d, double *a, double *b) {
     return true;
 }
 
-// Of the surface along a Su + b Sv. *terms: what it may err by times the normal's error.
-static double normal_curvature(const BezierJet *s, Vec3 n, double a, double b, double *terms) {
-    Vec3 bend = vec_scale(s->suu, a * a);
-    bend = vec_madd(bend, 2.0 * a * b, s->suv);
-    bend = vec_madd(bend, b * b, s->svv);
-    *terms = vec_length(s->suu) * a * a + 2.0 * vec_length(s->suv) * fabs(a * b) +
-             vec_length(s->svv) * b * b;
-    return fabs(vec_dot(bend, n));
+// What of a is across the unit vector e.
+static Vec3 across_of(Vec3 a, Vec3 e) { return vec_madd(a, -vec_dot(a, e), e); }
+
+// Of the surface along a Su + b Sv. *terms: the sizes of what is added, across the longer tangent.
+static double normal_curvature(const BezierJet *s, Vec3 n, Vec3 longer, double a, double b,
+                               double *terms) {
+    Vec3 uu = across_of(s->suu, longer), uv = across_of(s->suv, longer);
+    Vec3 vv = across_of(s->svv, longer);
+    *terms = vec_length(uu) * a * a + 2.0 * vec_length(uv) * fabs(a * b) + vec_length(vv) * b * b;
+    return fabs(vec_dot(uu, n) * a * a + 2.0 * vec_dot(uv, n) * a * b + vec_dot(vv, n) * b * b);
 }
 
 // The jet of N / W from those of N and W, by the quotient's rule.
@@ -307,25 +309,34 @@ static double follow_surface(Leaving *l) {
 // ---- Second order
 
 // The formula's t; negative where it is not certain.
+//
+// The tangents err by a few dozen roundings of the patch's size, the normal by that in shares of
+// the shorter times 1 / sine between them: but only across the longer tangent e, since it is made
+// square to e, which is known far better. Second derivatives are taken across e as well.
 static double second_order(const Leaving *l, Vec3 normal) {
-    double sine = vec_dot(l->dir, normal), b = l->bound;
-    Vec3 flat = vec_madd(l->dir, -sine, normal);
-    sine = fabs(sine);
-    double curvature = 1.0; // at least: a patch is no longer than it is
+    double b = l->bound, curvature = 1.0; // at least: a patch is no longer than it is
     double du = 0.0, dv = 0.0, terms = 0.0;
     BezierJet jet;
     jet_at(l, l->u, l->v, &jet);
-    if (vec_length(flat) > 0.0 && parameters_of(&jet, vec_normalize(flat), &du, &dv))
-        curvature = fmax(curvature, normal_curvature(&jet, normal, du, dv, &terms));
-    double t = sine * sine >= 4.0 * curvature * b ? 2.0 * b / sine : 4.5 * sqrt(b / curvature);
-    // The tangents err by a few dozen roundings of the patch's size, the normal by that in shares
-    // of the shorter times 1 / sine between them; and b moves (u,v), beside the way to t.
     double u = vec_length(jet.su), v = vec_length(jet.sv);
     double plane = vec_length(vec_cross(jet.su, jet.sv));
-    double off = 16.0 * (l->patch.du + l->patch.dv) * DBL_EPSILON * (u + v) / plane;
-    double least = fmax(sine, sqrt(curvature * b));
-    bool certain = off <= 0.125 * least && off * terms <= 0.125 * curvature &&
-                   t * fmax(fabs(du), fabs(dv)) <= 0x1p-6 && b * fmax(u, v) / plane <= 0x1p-6;
+    if (!(plane > 0.0))
+        return -1.0;
+    Vec3 longer = u >= v ? vec_scale(jet.su, 1.0 / u) : vec_scale(jet.sv, 1.0 / v);
+    normal = vec_normalize(across_of(across_of(normal, longer), longer));
+    double sine = vec_dot(l->dir, normal);
+    Vec3 flat = vec_madd(l->dir, -sine, normal);
+    sine = fabs(sine);
+    if (vec_length(flat) > 0.0 && parameters_of(&jet, vec_normalize(flat), &du, &dv))
+        curvature = fmax(curvature, normal_curvature(&jet, normal, longer, du, dv, &terms));
+    double roundings = 16.0 * (l->patch.du + l->patch.dv) * DBL_EPSILON, way = fabs(du) + fabs(dv);
+    double off = roundings * (u + v) / plane, error = off * terms + 4.0 * roundings * way * way;
+    double t = sine * sine >= 4.0 * (curvature + error) * b ? 2.0 * b / sine : -1.0;
+    if (t < 0.0 && error <= 0.125 * curvature)
+        t = 4.5 * sqrt(b / curvature);
+    // And b moves (u,v), beside the way to t.
+    bool certain =
+        off <= 0.125 * fmax(sine, sqrt(b)) && t * way <= 0x1p-6 && b * fmax(u, v) / plane <= 0x1p-6;
     return certain ? t : -1.0;
 }
 

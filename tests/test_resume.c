@@ -117,7 +117,7 @@ static void damage_is_seen(void **state) {
 // ---- the program ----------------------------------------------------------------------------
 
 #define RENDER                                                                                     \
-    "build/test/qirender +Iscenes/shells/shells.pov +W240 +H180 +A0.05 +R3 +BS8 +WT2 -V "          \
+    "build/test/qirender +Iscenes/shells/shells.pov +W240 +H180 +A0.05 +R6 +BS8 +WT2 -V "          \
     "'+O%s/%s.png'"
 
 // Renders until the state file is `share` of all colours, then sends the signal; its status.

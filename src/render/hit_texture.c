@@ -8,19 +8,20 @@ static uint32_t surface_texture(const Object *object, double normal_dot_dir) {
     return inside ? object->interior_texture : object->texture;
 }
 
-uint32_t surface_textures(const Object *object, const WorldHit *hit, double normal_dot_dir,
-                          ShapeTexture out[SHAPE_MAX_TEXTURES]) {
+void hit_find_textures(const Scene *scene, WorldHit *hit, double normal_dot_dir) {
+    const Object *object = &scene->objects[hit->object];
     bool inside = normal_dot_dir > 0.0 && object->interior_texture != NO_INDEX;
     if (inside || hit->texture_count == 0) {
-        out[0] = (ShapeTexture){surface_texture(object, normal_dot_dir), 1.0f};
-        return 1;
+        hit->textures[0] = (ShapeTexture){surface_texture(object, normal_dot_dir), 1.0f};
+        hit->texture_count = 1;
     }
     for (uint32_t i = 0; i < hit->texture_count; i++) {
-        out[i] = hit->textures[i];
-        if (out[i].texture == NO_INDEX)
-            out[i].texture = object->texture;
+        uint32_t *texture = &hit->textures[i].texture;
+        if (*texture == NO_INDEX)
+            *texture = object->texture;
+        if (hit->instance != NO_INDEX)
+            *texture = instance_texture(&scene->objects[hit->instance], *texture);
     }
-    return hit->texture_count;
 }
 
 bool surface_is_opaque(const Textures *textures, const Object *object) {

@@ -203,14 +203,12 @@ static void shade_textures(Tracer *tracer, const Surface *surface, const ShapeTe
     *color = sum;
 }
 
-void shade_hit(Tracer *tracer, const Path *path, const WorldHit *hit, Color *color) {
+void shade_hit(Tracer *tracer, const Path *path, WorldHit *hit, Color *color) {
     const Shading *shading = tracer->shading;
     const Object *object = &shading->scene->objects[hit->object];
     double cosine = vec_dot(hit->normal, path->ray.dir);
-    ShapeTexture textures[SHAPE_MAX_TEXTURES];
-    uint32_t count = surface_textures(object, hit, cosine, textures);
-    instance_textures(shading->scene, hit, textures, count);
-    if (count == 1 && textures[0].texture == NO_INDEX) {
+    hit_find_textures(shading->scene, hit, cosine);
+    if (hit->texture_count == 1 && hit->textures[0].texture == NO_INDEX) {
         *color = (Color){0}; // the built-in texture is black and opaque under any light
         return;
     }
@@ -228,6 +226,6 @@ void shade_hit(Tracer *tracer, const Path *path, const WorldHit *hit, Color *col
         .at = &at,
         .spaces = &spaces,
     };
-    shade_textures(tracer, &surface, textures, count,
+    shade_textures(tracer, &surface, hit->textures, hit->texture_count,
                    object->uv_mapping ? vec3(hit->u, hit->v, 0.0) : hit->p, color);
 }

@@ -160,13 +160,13 @@ void trace_path(Tracer *tracer, const Path *path, bool continued, Color *seen);
 double tracer_random(uint32_t *state);
 
 // shade.c
-void shade_hit(Tracer *tracer, const Path *path, const WorldHit *hit, Color *color);
+// The hit's list of textures becomes that of hit_find_textures().
+void shade_hit(Tracer *tracer, const Path *path, WorldHit *hit, Color *color);
 // hit_texture.c
-// The textures of the hit on that side and their weights, 1 to SHAPE_MAX_TEXTURES of them.
-uint32_t surface_textures(const Object *object, const WorldHit *hit, double normal_dot_dir,
-                          ShapeTexture out[SHAPE_MAX_TEXTURES]);
-// Of a hit: its body; whether a shadow ray ends there without looking at the texture; and the
-// object's textures as they are where an instance shows it.
+// Puts in the hit's list the textures that it shows on that side, as they are where an instance
+// shows them: at least one. In place, since rays nest in the hits of others.
+void hit_find_textures(const Scene *scene, WorldHit *hit, double normal_dot_dir);
+// Of a hit: its body; and whether a shadow ray ends there without looking at the texture.
 static inline uint32_t hit_body(const Shading *shading, uint32_t object, uint32_t instance) {
     return instance == NO_INDEX ? shading->objects[object].body
                                 : body_of(shading->scene, object, instance);
@@ -174,11 +174,6 @@ static inline uint32_t hit_body(const Shading *shading, uint32_t object, uint32_
 static inline bool hit_is_opaque(const Shading *shading, const WorldHit *hit) {
     return shading->objects[hit->object].opaque &&
            (hit->instance == NO_INDEX || shading->objects[hit->instance].opaque);
-}
-static inline void instance_textures(const Scene *scene, const WorldHit *hit,
-                                     ShapeTexture *textures, uint32_t count) {
-    for (uint32_t i = 0; hit->instance != NO_INDEX && i < count; i++)
-        textures[i].texture = instance_texture(&scene->objects[hit->instance], textures[i].texture);
 }
 bool surface_is_opaque(const Textures *textures, const Object *object); // on both sides, everywhere
 

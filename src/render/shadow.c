@@ -151,17 +151,15 @@ static Color textures_filter(const Filter *f, const ShapeTexture *textures, uint
 }
 
 // What the surface at hit lets through; false when nothing.
-static bool surface_filter(Way *way, const WorldHit *hit, Rgb *color) {
+static bool surface_filter(Way *way, WorldHit *hit, Rgb *color) {
     const Shading *shading = way->shading;
     const Ray *ray = &way->ray;
     if (hit_is_opaque(shading, hit))
         return false;
     const Object *object = &shading->scene->objects[hit->object];
     double cosine = vec_dot(hit->normal, ray->dir);
-    ShapeTexture textures[SHAPE_MAX_TEXTURES];
-    uint32_t count = surface_textures(object, hit, cosine, textures);
-    instance_textures(shading->scene, hit, textures, count);
-    if (count == 1 && textures[0].texture == NO_INDEX)
+    hit_find_textures(shading->scene, hit, cosine);
+    if (hit->texture_count == 1 && hit->textures[0].texture == NO_INDEX)
         return false;
 
     uint32_t body = hit_body(shading, hit->object, hit->instance);
@@ -173,7 +171,7 @@ static bool surface_filter(Way *way, const WorldHit *hit, Rgb *color) {
     Filter f = {shading, ray->dir, normal, interior != NULL ? interior->caustics : 0.0f,
                 &at,     &spaces};
     Vec3 p = object->uv_mapping ? vec3(hit->u, hit->v, 0.0) : hit->p;
-    Rgb through = color_through(textures_filter(&f, textures, count, p));
+    Rgb through = color_through(textures_filter(&f, hit->textures, hit->texture_count, p));
     bool fades = interior != NULL && interior->fade_power > 0.0f;
     if (fades && is_inside(way, body))
         through = rgb_mul(through, refract_fade(interior, hit->t));

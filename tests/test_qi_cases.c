@@ -9,6 +9,7 @@
 
 #include "patch/patch.h"
 #include "patch/qi.h"
+#include "patch/rational.h"
 #include "ray_oracle.h"
 
 enum { MOST_STEPS = 400 };
@@ -474,13 +475,111 @@ static void clear_of_ribbons(void **state) {
     }
 }
 
+// Rays at rational patches whose weights differ by up to 1e12.
+typedef struct {
+    const char *before;
+    int du, dv;
+    Vec3 points[16];
+    double weights[16];
+    Ray ray;
+} FoundRational;
+
+static const FoundRational last_bit = {
+    "v known to its last bit only, which is 9e-11 on the ray: Newton ended 2 bits beside and was "
+    "told to have left the ray, so the hit was missed",
+    1,
+    3,
+    {{-0.19990123565970053, -0.28449219711194379, 0.30465936463582594},
+     {0.20637272990297992, 0.35055214400713408, -0.065545313350764633},
+     {0.12103309911069279, 0.69300946754249615, 0.15432196827808209},
+     {-0.052455272878254355, 0.76724177251008818, 0.32135666536087776},
+     {0.79289051680670264, 0.11245152257705038, 0.28188718140500535},
+     {0.81784264217749159, 0.63366828974205192, 0.55181345064291176},
+     {0.77889380173725009, 0.53030890728486124, 0.79640409906765774},
+     {0.16628132545967347, 0.8255764298628514, 1.3799316481103128}},
+    {537923.37018169672, 0.0002734362356720375, 2.0392693670999664, 18044.922896527911,
+     161.64926266211597, 0.00024352767832166934, 223242.91336984487, 0.0001508967805343768},
+    {{0.577439715919567, 0.3910706986597221, 0.69339900435860624},
+     {-0.43306810623143982, 0.31808350783971212, -0.25889603873942407}}};
+
+static void known_to_the_last_bit(void **state) {
+    (void)state;
+    const FoundRational *f = &last_bit;
+    Bezier s;
+    bezier_init(&s, f->du, f->dv, f->points);
+    QiQuery q = qi_query_default(&s, f->ray);
+    q.t_min = 1e-3;
+    q.rect = (BezierRect){0x1.fffe8p-1, 0x1.ffffp-1, 0x1.fffffp-1, 1.0};
+    QiHit hit;
+    if (!qi_rational_nearest(&s, f->weights, &q, NULL, &hit))
+        fail_msg("%s", f->before);
+    assert_true(fabs(hit.t - 1.0106030725) < 1e-9);
+}
+
+static const FoundRational short_tangent = {
+    "weights of one side 1e9 times larger leave dS/dv 1e-9 long, which rounding covered: the "
+    "normal "
+    "of the points without their weights came out, 54 degrees beside",
+    3,
+    1,
+    {{0.090581898128142671, 0.4662942422099271, 0.031878998824501681},
+     {0.71369588626231306, 0.23524044888363091, 0.47725258409480409},
+     {-0.34623092516504833, 0.19001396173070945, 0.17673078182603194},
+     {0.80458167764279909, 0.83538458467089849, 0.60952113630361748},
+     {-0.08053785188085677, 0.20115132883490669, 0.94147731714278082},
+     {0.46644693649740598, 0.42080867206198713, 0.72798479318593423},
+     {-0.4961782266427287, 0.58915633816885027, 0.78743486925226513},
+     {0.75874283212231663, 0.60920328139442659, 1.1280018581956388}},
+    {9.3959015793204675e-05, 0.13824066745177155, 0.017019530929775935, 0.00085465343204657487,
+     37793.16412565163, 1.1584338896218008e-05, 5768.4952365861154, 1.2533916156201238e-05},
+    {{-0.2560117368206497, 0.36495818825003568, 0.87644409743547069},
+     {-0.70508612526014636, -0.1312917529526281, 0.25179188151436943}}};
+
+// Both tangents are known to the oracle's digits.
+static void normals_of_uneven_weights(void **state) {
+    (void)state;
+    const FoundRational *f = &short_tangent;
+    PatchDef def = {.degree_u = (uint32_t)f->du,
+                    .degree_v = (uint32_t)f->dv,
+                    .points = f->points,
+                    .weights = f->weights,
+                    .mask = UINT32_MAX};
+    Bezier s;
+    bezier_init(&s, f->du, f->dv, f->points);
+    for (int k = 0; k <= 16; k++) {
+        double u = 0.93489830045055355, v = k < 16 ? k / 16.0 : 0.010710036846071778;
+        Vec3 jet[3], normal = rational_normal(&s, f->weights, u, v, f->ray.dir);
+        ray_oracle_jet(&def, u, v, jet);
+        for (int n = 1; n < 3; n++)
+            if (!(fabs(vec_dot(normal, vec_normalize(jet[n]))) < 1e-7))
+                fail_msg("%s: v %g", f->before, v);
+    }
+    // So a ray that leaves there is far from clear after three bounds.
+    PatchHit hit = {.u = 0.93489830045055355,
+                    .v = 0.010710036846071778,
+                    .normal = rational_normal(&s, f->weights, 0.93489830045055355,
+                                              0.010710036846071778, f->ray.dir),
+                    .bound = 6.7932030143528592e-14};
+    double t = patch_clearance(&def, &hit, &f->ray);
+    Arena *arena = arena_create();
+    const RayOracleSet *oracle = ray_oracle_prepare(arena, &def, 1);
+    assert_false(ray_oracle_near(oracle, &f->ray, t, 1.001 * t, hit.bound));
+    arena_destroy(arena);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(rays_at_ribbons),    cmocka_unit_test(leaving_a_ribbon),
-        cmocka_unit_test(clear_of_ribbons),   cmocka_unit_test(prepared_ribbons),
-        cmocka_unit_test(pairs_on_ribbons),   cmocka_unit_test(small_beside_huge),
-        cmocka_unit_test(flat_rays_at_poles), cmocka_unit_test(rays_beside_poles),
+        cmocka_unit_test(rays_at_ribbons),
+        cmocka_unit_test(leaving_a_ribbon),
+        cmocka_unit_test(clear_of_ribbons),
+        cmocka_unit_test(prepared_ribbons),
+        cmocka_unit_test(pairs_on_ribbons),
+        cmocka_unit_test(small_beside_huge),
+        cmocka_unit_test(flat_rays_at_poles),
+        cmocka_unit_test(rays_beside_poles),
         cmocka_unit_test(tangent_rays),
+        cmocka_unit_test(known_to_the_last_bit),
+        cmocka_unit_test(normals_of_uneven_weights),
     };
     return cmocka_run_group_tests_name("qi_cases", tests, NULL, NULL);
 }

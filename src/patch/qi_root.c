@@ -147,11 +147,13 @@ static void step_inside(const QiTarget *q, BezierRect rect, Point p, double *u, 
 bool qi_root_sharpen(QiTarget *q, BezierRect rect, double error_u, double error_v) {
     double u = 0.5 * (rect.u0 + rect.u1), v = 0.5 * (rect.v0 + rect.v1);
     Point p = eval(q, u, v);
+    // Below an ulp of 1 a polynomial moves by less than its slacks, a rational patch by any length.
+    double last = q->rational ? 0.0 : DBL_EPSILON;
     // At 2/3 a step throughout, 96 steps would still take any start to 2^-53 of the piece.
     for (int n = 0; n < 96; n++) {
         double nu = u, nv = v;
         step_inside(q, rect, p, &nu, &nv);
-        if (!(fabs(nu - u) + fabs(nv - v) > DBL_EPSILON)) // no step left, or no number
+        if (!(fabs(nu - u) + fabs(nv - v) > last)) // no step left, or no number
             break;
         Point next = eval(q, nu, nv);
         q->newton++;

@@ -30,19 +30,51 @@ void rational_eval(const Bezier *patch, const double *weights, double u, double 
     out[2] = vec_scale(vec_madd(n_v, -w_v, out[0]), 1.0 / w);
 }
 
-// dS/dt W^2 = sum over a < b of w_a w_b (B_a' B_b - B_b' B_a) (P_a - P_b): equal points give 0
-// exactly, so that tangents keep their relative accuracy up to a collapsed edge. Basis values b and
-// their derivatives d; *scale is the same sum of the terms' lengths.
-static Vec3 tangent(const Bezier *patch, const double *b, const double *d, double *scale) {
+enum { LINE = BEZIER_MAX_DEGREE + 1 };
+
+// B_i' B_k - B_k' B_i = C(n,i) C(n,k) (i - k) t^(i+k-1) (1-t)^(2n-i-k-1) for i > k: no difference
+// of numbers nearly equal.
+static void cross_basis(int n, double t, double out[LINE][LINE]) {
+    double low[2 * LINE] = {1.0}, high[2 * LINE] = {1.0}, choose[LINE] = {1.0};
+    for (int i = 1; i <= 2 * n - 2; i++) {
+        low[i] = low[i - 1] * t;
+        high[i] = high[i - 1] * (1.0 - t);
+    }
+    for (int i = 1; i <= n; i++)
+        choose[i] = choose[i - 1] * (n - i + 1) / i;
+    for (int i = 1; i <= n; i++)
+        for (int k = 0; k < i; k++)
+            out[i][k] = choose[i] * choose[k] * (i - k) * low[i + k - 1] * high[2 * n - i - k - 1];
+}
+
+// A net's points and weights by rows along one of its directions.
+typedef struct {
+    const Bezier *patch;
+    int along, across;               // degrees
+    int step_along, step_across;     // of indices
+    double cross[LINE][LINE];        // of the one
+    double terms[BEZIER_MAX_POINTS]; // weights times the basis of the other
+} Tangent;
+
+// dS/dt W^2 = sum of w_a w_b (B_a' B_b - B_b' B_a) (P_a - P_b) over pairs, where the basis across
+// comes out as a factor. So points equal along t, or weights far larger on one side, leave the
+// tangent its relative accuracy, however short it is. *scale is the same sum of the terms' lengths.
+static Vec3 tangent(const Tangent *s, double *scale) {
     Vec3 sum = vec3(0.0, 0.0, 0.0);
     *scale = 0.0;
-    int count = bezier_count(patch);
-    for (int i = 0; i < count; i++) {
-        for (int k = i + 1; k < count; k++) {
-            Vec3 between = vec_sub(patch->p[i], patch->p[k]);
-            double factor = d[i] * b[k] - d[k] * b[i];
-            sum = vec_madd(sum, factor, between);
-            *scale += (fabs(d[i]) * b[k] + fabs(d[k]) * b[i]) * vec_length(between);
+    for (int i = 1; i <= s->along; i++) {
+        for (int k = 0; k < i; k++) {
+            for (int m = 0; m <= s->across; m++) {
+                int a = i * s->step_along + m * s->step_across;
+                double times = s->cross[i][k] * s->terms[a];
+                for (int n = 0; n <= s->across; n++) {
+                    int b = k * s->step_along + n * s->step_across;
+                    Vec3 between = vec_sub(s->patch->p[a], s->patch->p[b]);
+                    double factor = times * s->terms[b];
+                    sum = vec_madd(sum, factor, between);
+                    *scale += factor * vec_length(between);
+                }
+            }
         }
     }
     return sum;
@@ -51,24 +83,24 @@ static Vec3 tangent(const Bezier *patch, const double *b, const double *d, doubl
 // The product of the tangents, by their lengths; false if rounding can explain it.
 static bool normal_at(const Bezier *patch, const double *weights, double u, double v,
                       Vec3 *normal) {
-    double wu[BEZIER_MAX_DEGREE + 1], su[BEZIER_MAX_DEGREE + 1];
-    double wv[BEZIER_MAX_DEGREE + 1], sv[BEZIER_MAX_DEGREE + 1];
-    double b[BEZIER_MAX_POINTS], along_u[BEZIER_MAX_POINTS], along_v[BEZIER_MAX_POINTS];
-    bernstein(patch->du, u, wu, su);
-    bernstein(patch->dv, v, wv, sv);
-    double most = 0.0;
+    double wu[LINE], wv[LINE], slope[LINE], most = 0.0;
+    Tangent along_u = {patch, patch->du, patch->dv, patch->dv + 1, 1, .terms = {0.0}};
+    Tangent along_v = {patch, patch->dv, patch->du, 1, patch->dv + 1, .terms = {0.0}};
+    bernstein(patch->du, u, wu, slope);
+    bernstein(patch->dv, v, wv, slope);
+    cross_basis(patch->du, u, along_u.cross);
+    cross_basis(patch->dv, v, along_v.cross);
     for (int k = 0; k < bezier_count(patch); k++)
         most = fmax(most, weights ? weights[k] : 1.0);
     for (int i = 0, k = 0; i <= patch->du; i++) {
         for (int j = 0; j <= patch->dv; j++, k++) {
             double w = weights ? weights[k] / most : 1.0;
-            b[k] = w * wu[i] * wv[j];
-            along_u[k] = w * su[i] * wv[j];
-            along_v[k] = w * wu[i] * sv[j];
+            along_u.terms[k] = w * wv[j];
+            along_v.terms[k] = w * wu[i];
         }
     }
     double scale_u, scale_v;
-    Vec3 tu = tangent(patch, b, along_u, &scale_u), tv = tangent(patch, b, along_v, &scale_v);
+    Vec3 tu = tangent(&along_u, &scale_u), tv = tangent(&along_v, &scale_v);
     double lu = vec_length(tu), lv = vec_length(tv);
     // Terms err by 4 (du + dv) + 8 half ulps; with 2^24 of them 8 digits of the direction are left.
     double share = 0x1p24 * 0x1p-53 * (4.0 * (patch->du + patch->dv) + 8.0);

@@ -357,7 +357,7 @@ static void search(Search *q, BezierRect rect) {
     Level levels[LEVELS];
     int depth = 0;
     examine(q, rect, &levels[0]);
-    while (depth >= 0 && !qi_list_done(&q->list)) {
+    while (depth >= 0 && !qi_list_done(&q->list, &q->frame)) {
         Level *level = &levels[depth];
         if (level->next == level->count) {
             depth--;

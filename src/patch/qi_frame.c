@@ -181,6 +181,10 @@ static bool touching(BezierRect a, BezierRect b) {
     return a.u0 <= b.u1 + ulps && b.u0 <= a.u1 + ulps && a.v0 <= b.v1 + ulps && b.v0 <= a.v1 + ulps;
 }
 
+static BezierRect hull_of(BezierRect a, BezierRect b) {
+    return (BezierRect){fmin(a.u0, b.u0), fmax(a.u1, b.u1), fmin(a.v0, b.v0), fmax(a.v1, b.v1)};
+}
+
 static bool one_crossing(const QiFound *a, const QiFound *b) {
     return a->sign * b->sign >= 0 && touching(a->rect, b->rect);
 }
@@ -188,7 +192,7 @@ static bool one_crossing(const QiFound *a, const QiFound *b) {
 // The better of the two stays, over both rectangles: a crossing proved (sign known) before a mere
 // approach, then the bound if it differs much, then the nearer.
 static void absorb(QiFound *into, const QiFound *from) {
-    BezierRect a = into->rect, b = from->rect;
+    BezierRect both = hull_of(into->rect, from->rect);
     int known_a = into->sign != 0, known_b = from->sign != 0;
     bool better = known_b != known_a                ? known_b > known_a
                   : from->bound < 0.5 * into->bound ? true
@@ -196,8 +200,7 @@ static void absorb(QiFound *into, const QiFound *from) {
                                                     : from->t < into->t;
     if (better)
         *into = *from;
-    into->rect =
-        (BezierRect){fmin(a.u0, b.u0), fmax(a.u1, b.u1), fmin(a.v0, b.v0), fmax(a.v1, b.v1)};
+    into->rect = both;
 }
 
 void qi_list_add(QiList *list, QiFound found) {
@@ -227,7 +230,31 @@ double qi_list_z_high(const QiList *list, const QiFrame *frame) {
     return list->mode == QI_NEAREST && list->count ? list->found[0].z : frame->z_high;
 }
 
-bool qi_list_done(const QiList *list) { return list->mode == QI_ANY && list->count > 0; }
+// z_low lies a slack before the range, and a depth errs by one.
+static bool is_first(const QiFound *found, const QiFrame *frame) {
+    return found->z <= frame->z_low + 2.0 * frame->slack_z;
+}
+
+bool qi_list_done(const QiList *list, const QiFrame *frame) {
+    return list->mode != QI_ALL && list->count > 0 &&
+           (list->mode == QI_ANY || is_first(&list->found[0], frame));
+}
+
+bool qi_list_has(QiList *list, const QiFrame *frame, double low, double high, double radius,
+                 BezierRect rect) {
+    double reach = radius / frame->stretch;
+    low = larger(low, frame->z_low);
+    high = high < frame->z_high ? high : frame->z_high;
+    for (int i = 0; list->mode == QI_ALL && i < list->count; i++) {
+        QiFound *f = &list->found[i];
+        if (f->z - low <= reach && high - f->z <= reach) {
+            if (touching(f->rect, rect))
+                f->rect = hull_of(f->rect, rect);
+            return true;
+        }
+    }
+    return false;
+}
 
 int qi_list_report(QiList *list, const Bezier *patch, const double *weights, const QiFrame *frame,
                    Vec3 dir, QiStats *stats, QiSink sink, void *context) {

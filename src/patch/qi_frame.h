@@ -61,7 +61,13 @@ typedef struct {
 void qi_list_add(QiList *list, QiFound found);
 // Depth beyond which nothing is of interest any more.
 double qi_list_z_high(const QiList *list, const QiFrame *frame);
-bool qi_list_done(const QiList *list); // QI_ANY has its hit
+// QI_ANY has its hit; the hit of QI_NEAREST is as near to the range's begin as rounding can tell.
+bool qi_list_done(const QiList *list, const QiFrame *frame);
+// Of points on the ray at depths from `low` to `high`: are all that count within `radius` of one
+// hit found, so that they are the same place? Their piece then belongs to that hit's, if they
+// touch.
+bool qi_list_has(QiList *list, const QiFrame *frame, double low, double high, double radius,
+                 BezierRect rect);
 // By increasing t, normals and scene units filled in.
 int qi_list_report(QiList *list, const Bezier *patch, const double *weights, const QiFrame *frame,
                    Vec3 dir, QiStats *stats, QiSink sink, void *context);

@@ -349,35 +349,42 @@ static bool first_depth(Search *q, BezierRect rect, double at[2]) {
     return found;
 }
 
-// Do any depths count where the first form is 0? There the depth is that less any multiple of the
-// form: of a ribbon across the ray, say, whose depths are those of a line and nothing else.
-static bool curve_counts(const Search *q, const Piece *p) {
+// The depths of the points where the first form is 0, with their rounding. There the depth is that
+// less any multiple of the form: of a ribbon across the ray, say, whose depths are those of a line
+// and nothing else. Of a rational piece it is a mean of the depths less that of the form / w.
+static Span curve_depths(const Search *q, const Piece *p) {
     const QiTarget *target = &q->target;
     int du = target->du, dv = target->dv, count = (du + 1) * (dv + 1);
     QiForm f = p->forms[0];
     bool along_u = fabs(f.au) >= fabs(f.av);
     double times = along_u ? trend_u(p->net.z, du, dv) / f.au : trend_v(p->net.z, du, dv) / f.av;
-    double z[POINTS] = {p->net.z[0]};
-    if (target->rational || !isfinite(times))
-        return true;
-    for (int k = 0; k < count; k++)
-        z[k] = p->net.z[k] - times * (f.bx * p->net.x[k] + f.by * p->net.y[k]);
+    double z[POINTS] = {p->net.z[0]}, least = 1.0;
+    if (!isfinite(times))
+        times = 0.0;
+    for (int k = 0; k < count; k++) {
+        double w = target->rational ? p->net.w[k] : 1.0;
+        z[k] = p->net.z[k] - times * (f.bx * p->net.x[k] + f.by * p->net.y[k]) / w;
+        least = w < least ? w : least;
+    }
     Span depth = span_of(z, count);
-    double slack = 2.0 * (target->frame.slack_z + fabs(times) * form_slack(f, &target->frame));
-    return depth.high + slack >= target->frame.z_low &&
-           depth.low - slack <= qi_list_z_high(&target->list, &target->frame);
+    double slack =
+        2.0 * (target->frame.slack_z + fabs(times) * form_slack(f, &target->frame) / least);
+    return (Span){depth.low - slack, depth.high + slack};
 }
 
 // Pieces of a singular J in which the ray is as good as in the surface.
 static inline bool finish_singular(Search *q, int count, const Piece *p, bool least) {
     const QiFrame *frame = &q->target.frame;
     const QiForm *f = p->forms;
-    if (!p->regular && p->bounds[0].slope < fmin(fabs(f[0].au), fabs(f[0].av)) &&
-        weak_form(&p->net, count, f[1], 16.0 * form_slack(f[1], frame)) &&
-        (!curve_counts(q, p) ||
-         qi_root_settle_curve(&q->target, p->left, f[0], form_slack(f[0], frame))))
-        return true;
     double radius = q->steps <= PATIENCE ? frame->least_tolerance : frame->tolerance;
+    if (!p->regular && p->bounds[0].slope < fmin(fabs(f[0].au), fabs(f[0].av)) &&
+        weak_form(&p->net, count, f[1], 16.0 * form_slack(f[1], frame))) {
+        Span depth = curve_depths(q, p);
+        if (depth.high < frame->z_low || depth.low > qi_list_z_high(&q->target.list, frame) ||
+            qi_list_has(&q->target.list, frame, depth.low, depth.high, radius, p->left) ||
+            qi_root_settle_curve(&q->target, p->left, f[0], form_slack(f[0], frame)))
+            return true;
+    }
     bool near = q->target.rational ? within_rational(&p->net, count, radius)
                                    : within(&p->net, count, radius);
     if (!least && !near)
@@ -570,7 +577,7 @@ static void search(Search *q, BezierRect rect) {
     BezierRect stack[STACK];
     int count = 0;
     stack[count++] = rect;
-    while (count > 0 && !qi_list_done(&q->target.list)) {
+    while (count > 0 && !qi_list_done(&q->target.list, &q->target.frame)) {
         Rest rest = {.rect = stack[--count]};
         Step step;
         do {

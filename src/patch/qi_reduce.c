@@ -349,42 +349,49 @@ static bool first_depth(Search *q, BezierRect rect, double at[2]) {
     return found;
 }
 
-// The depths of the points where the first form is 0, with their rounding. There the depth is that
-// less any multiple of the form: of a ribbon across the ray, say, whose depths are those of a line
-// and nothing else. Of a rational piece it is a mean of the depths less that of the form / w.
-static Span curve_depths(const Search *q, const Piece *p) {
+// The depths of a piece's roots, with their rounding. Where a form is 0 the depth is that less any
+// multiple of the form: of a ribbon across the ray, say, whose depths are those of a line and
+// nothing else. Of a rational piece it is a mean of the depths less that of the form / w.
+static Span root_depths(const Search *q, const Piece *p) {
     const QiTarget *target = &q->target;
+    const QiForm *f = p->forms;
     int du = target->du, dv = target->dv, count = (du + 1) * (dv + 1);
-    QiForm f = p->forms[0];
-    bool along_u = fabs(f.au) >= fabs(f.av);
-    double times = along_u ? trend_u(p->net.z, du, dv) / f.au : trend_v(p->net.z, du, dv) / f.av;
+    double zu = trend_u(p->net.z, du, dv), zv = trend_v(p->net.z, du, dv), times[2] = {zu, zv};
+    if (!p->regular) {
+        times[0] = fabs(f[0].au) >= fabs(f[0].av) ? zu / f[0].au : zv / f[0].av;
+        times[1] = 0.0;
+    }
+    if (!isfinite(times[0]))
+        times[0] = 0.0;
+    double bx = times[0] * f[0].bx + times[1] * f[1].bx;
+    double by = times[0] * f[0].by + times[1] * f[1].by;
     double z[POINTS] = {p->net.z[0]}, least = 1.0;
-    if (!isfinite(times))
-        times = 0.0;
     for (int k = 0; k < count; k++) {
         double w = target->rational ? p->net.w[k] : 1.0;
-        z[k] = p->net.z[k] - times * (f.bx * p->net.x[k] + f.by * p->net.y[k]) / w;
+        z[k] = p->net.z[k] - (bx * p->net.x[k] + by * p->net.y[k]) / w;
         least = w < least ? w : least;
     }
     Span depth = span_of(z, count);
-    double slack =
-        2.0 * (target->frame.slack_z + fabs(times) * form_slack(f, &target->frame) / least);
+    double error = fabs(times[0]) * form_slack(f[0], &target->frame) +
+                   fabs(times[1]) * form_slack(f[1], &target->frame);
+    double slack = 2.0 * (target->frame.slack_z + error / least);
     return (Span){depth.low - slack, depth.high + slack};
 }
 
-// Pieces of a singular J in which the ray is as good as in the surface.
+// Pieces whose roots do not count, and those of a singular J in which the ray is as good as in the
+// surface.
 static inline bool finish_singular(Search *q, int count, const Piece *p, bool least) {
     const QiFrame *frame = &q->target.frame;
     const QiForm *f = p->forms;
     double radius = q->steps <= PATIENCE ? frame->least_tolerance : frame->tolerance;
+    Span at = root_depths(q, p);
+    if (at.high < frame->z_low || at.low > qi_list_z_high(&q->target.list, frame))
+        return true;
     if (!p->regular && p->bounds[0].slope < fmin(fabs(f[0].au), fabs(f[0].av)) &&
-        weak_form(&p->net, count, f[1], 16.0 * form_slack(f[1], frame))) {
-        Span depth = curve_depths(q, p);
-        if (depth.high < frame->z_low || depth.low > qi_list_z_high(&q->target.list, frame) ||
-            qi_list_has(&q->target.list, frame, depth.low, depth.high, radius, p->left) ||
-            qi_root_settle_curve(&q->target, p->left, f[0], form_slack(f[0], frame)))
-            return true;
-    }
+        weak_form(&p->net, count, f[1], 16.0 * form_slack(f[1], frame)) &&
+        (qi_list_has(&q->target.list, frame, at.low, at.high, radius, p->left) ||
+         qi_root_settle_curve(&q->target, p->left, f[0], form_slack(f[0], frame))))
+        return true;
     bool near = q->target.rational ? within_rational(&p->net, count, radius)
                                    : within(&p->net, count, radius);
     if (!least && !near)
@@ -396,8 +403,8 @@ static inline bool finish_singular(Search *q, int count, const Piece *p, bool le
         qi_root_settle(&q->target, p->left);
         return true;
     }
-    double at[2];
-    if (!first_depth(q, p->rect, at) || !qi_root_settle_at(&q->target, p->rect, at[0], at[1]))
+    double spot[2];
+    if (!first_depth(q, p->rect, spot) || !qi_root_settle_at(&q->target, p->rect, spot[0], spot[1]))
         qi_root_settle(&q->target, p->rect);
     return true;
 }

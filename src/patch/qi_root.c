@@ -27,8 +27,9 @@ static inline void basis(int d, double t, double *value, double *slope) {
     }
 }
 
-static inline Point eval_net(const QiNet *n, int du, int dv, double u, double v) {
-    double wu[LINE], su[LINE], wv[LINE], sv[LINE];
+// weight: of a rational patch, gets W; else NULL.
+static inline Point eval_net(const QiNet *n, int du, int dv, double u, double v, double *weight) {
+    double wu[LINE], su[LINE], wv[LINE], sv[LINE], sum = 0.0;
     basis(du, u, wu, su);
     basis(dv, v, wv, sv);
     Point p = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
@@ -49,23 +50,21 @@ static inline Point eval_net(const QiNet *n, int du, int dv, double u, double v)
         p.yu += ry * su[i];
         p.xv += rxv * wu[i];
         p.yv += ryv * wu[i];
+        double row = 0.0;
+        for (int j = 0; weight && j <= dv; j++)
+            row += n->w[i * (dv + 1) + j] * wv[j];
+        sum += row * wu[i];
     }
+    if (weight)
+        *weight = sum;
     return p;
 }
 
 // All divided by the weight: x, y and z are the point's, the derivatives those of (x w, y w) / w.
 // Newton's step towards x w = y w = 0 is the same with or without that factor.
 static Point eval_rational(const QiTarget *q, double u, double v) {
-    double wu[LINE], wv[LINE], slope[LINE], sum = 0.0;
-    basis(q->du, u, wu, slope);
-    basis(q->dv, v, wv, slope);
-    for (int i = 0; i <= q->du; i++) {
-        double row = 0.0;
-        for (int j = 0; j <= q->dv; j++)
-            row += q->whole.w[i * (q->dv + 1) + j] * wv[j];
-        sum += row * wu[i];
-    }
-    Point p = eval_net(&q->whole, q->du, q->dv, u, v);
+    double sum;
+    Point p = eval_net(&q->whole, q->du, q->dv, u, v, &sum);
     return (Point){p.x / sum, p.y / sum, p.z / sum, p.xu / sum, p.yu / sum, p.xv / sum, p.yv / sum};
 }
 
@@ -73,8 +72,8 @@ static Point eval(const QiTarget *q, double u, double v) {
     if (q->rational)
         return eval_rational(q, u, v);
     if (q->du == 3 && q->dv == 3)
-        return eval_net(&q->whole, 3, 3, u, v);
-    return eval_net(&q->whole, q->du, q->dv, u, v);
+        return eval_net(&q->whole, 3, 3, u, v, NULL);
+    return eval_net(&q->whole, q->du, q->dv, u, v, NULL);
 }
 
 static double clamp(double x, double low, double high) {

@@ -29,8 +29,21 @@ static PixelRect tile_at(const void *context, int i) {
 
 static Color color_of(int x, int y) { return (Color){(float)x, (float)y, 0.25f, -1.0f, 0.5f}; }
 
-static ResumeJob job_of(Color *picture, uint64_t identity) {
-    return (ResumeJob){.identity = identity,
+// The context is the number, and how often it was asked for.
+typedef struct {
+    uint64_t number;
+    int asked;
+} Identity;
+
+static uint64_t identity_of(const void *context) {
+    Identity *identity = (Identity *)context;
+    identity->asked++;
+    return identity->number;
+}
+
+static ResumeJob job_of(Color *picture, const Identity *identity) {
+    return (ResumeJob){.identity = identity_of,
+                       .context = identity,
                        .width = WIDE,
                        .tile_count = TILES,
                        .tile = tile_at,
@@ -45,9 +58,10 @@ static void fill(Color *picture, int tile) {
 }
 
 // How many tiles are taken up; those are right, all else is black.
-static int taken_up(const char *path, uint64_t identity) {
+static int taken_up(const char *path, uint64_t number) {
     Color picture[WIDE * HIGH] = {{0}};
-    const ResumeJob job = job_of(picture, identity);
+    const Identity identity = {.number = number};
+    const ResumeJob job = job_of(picture, &identity);
     Resume *resume = resume_create(path, &job, true);
     Color want[WIDE * HIGH] = {{0}};
     for (int i = 0; i < TILES; i++)
@@ -61,12 +75,15 @@ static int taken_up(const char *path, uint64_t identity) {
 
 static void keep(const char *path, bool take_up, int from, int to) {
     Color picture[WIDE * HIGH] = {{0}};
-    const ResumeJob job = job_of(picture, 7);
+    const Identity identity = {.number = 7};
+    const ResumeJob job = job_of(picture, &identity);
     Resume *resume = resume_create(path, &job, take_up);
     for (int i = from; i < to; i++) {
         fill(picture, i);
         resume_tile(resume, i);
     }
+    // It was worked out for every picture, a fifth of the time of 200,000 small solids.
+    assert_int_equal(identity.asked, take_up ? 1 : 0);
     assert_true(resume_keep(resume));
     resume_destroy(resume);
 }

@@ -142,7 +142,10 @@ static PatchPrepare prepare_of(const Scene *scene, const RenderOptions *o) {
 }
 
 // What decides on the colours of a tile beside the scene.
-static uint64_t identity_of(const Scene *scene, const RenderOptions *o) {
+static uint64_t identity_of(const void *context) {
+    const Job *job = context;
+    const Scene *scene = job->scene;
+    const RenderOptions *o = job->options;
     const double facts[] = {o->width,           o->height,          o->start_row,
                             o->end_row,         o->start_column,    o->end_column,
                             o->block_size,      o->antialias,       o->antialias_threshold,
@@ -158,7 +161,7 @@ static void begin_resume(Job *job) {
     const RenderOptions *o = job->options;
     if (!o->state)
         return;
-    const ResumeJob resume = {.identity = identity_of(job->scene, o),
+    const ResumeJob resume = {.identity = identity_of,
                               .width = o->width,
                               .tile_count = job->count,
                               .tile = tile_at,

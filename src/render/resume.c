@@ -56,7 +56,9 @@ static uint64_t check_of(int tile, const Color *colors, size_t count) {
 }
 
 static Header header_of(const ResumeJob *job) {
-    Header header = {.identity = job->identity, .width = job->width, .tile_count = job->tile_count};
+    Header header = {.identity = job->identity(job->context),
+                     .width = job->width,
+                     .tile_count = job->tile_count};
     memcpy(header.magic, MAGIC, sizeof MAGIC);
     return header;
 }

@@ -17,8 +17,10 @@
 typedef struct Resume Resume;
 
 typedef struct {
-    uint64_t identity; // of scene and options: what is there is only used when it is the same
-    int width;         // of the picture, in pixels
+    // Of scene and options: what is there is only used when it is the same. Asked for when there is
+    // a file to read or to write: of a large scene it takes as long as reading that.
+    uint64_t (*identity)(const void *context);
+    int width; // of the picture, in pixels
     int tile_count;
     PixelRect (*tile)(const void *context, int number); // where a tile lies
     const void *context;

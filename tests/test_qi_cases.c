@@ -609,6 +609,24 @@ static const FoundRational behind_the_start = {
     {{-0.54897194536947702, -0.076216368824670422, -0.58357580394499808},
      {0.84014379733921407, 0.52712768906654006, -0.05765216023581024}}};
 
+static const FoundRational bent_depths = {
+    "a curve whose depths end at half of the range's begin, bounded to the first order: 1265 nets, "
+    "1 ms",
+    1,
+    2,
+    {
+        {-0.044683028043571285, -0.14948729280385742, 0.14467795395913785},
+        {-0.12534613710819734, -0.51208546798003141, -0.078735828204649416},
+        {0.19772193986647366, -0.82217067642611252, -0.56786036658786077},
+        {0.72751201215095795, -0.42822293643977166, 0.63048125500366514},
+        {0.91976649721515347, -0.74645179949129237, 0.28366981121522705},
+        {1.0329858771240468, -0.99946223923115962, 0.073722740311006146},
+    },
+    {140578.583228017, 1.0933013006126812e-06, 9.6227432105830459e-05, 6.1151106599554988e-06,
+     22145.090468882056, 1.4707803771972239},
+    {{-0.044016411122706378, -0.14989990817816337, 0.14477402352775426},
+     {0.59983151435952853, 0.10438390523637978, 0.68145228030895788}}};
+
 // Rays that are clear of the surface by no more than what rounding can tell.
 static void ranges_near_the_surface(void **state) {
     (void)state;
@@ -631,6 +649,15 @@ static void ranges_near_the_surface(void **state) {
     assert_true(qi_rational_nearest(&s, f->weights, &q, &stats, &hit));
     if (stats.steps > MOST_STEPS || !(fabs(hit.t - 0.0051312083615664) < 1e-12))
         fail_msg("%s: %d steps, t %.17g", f->before, (int)stats.steps, hit.t);
+
+    f = &bent_depths;
+    bezier_init(&s, f->du, f->dv, f->points);
+    q = qi_query_default(&s, f->ray);
+    q.t_min = 7.0601061348227676e-11;
+    stats = (QiStats){0, 0, 0, 0};
+    qi_rational_nearest(&s, f->weights, &q, &stats, &hit);
+    if (stats.steps > MOST_STEPS)
+        fail_msg("%s: %d steps", f->before, (int)stats.steps);
 }
 
 int main(void) {

@@ -25,13 +25,13 @@ typedef struct {
     Span rest;
 } Bend;
 
-// The mean second derivatives over the piece, and what is left. Any other numbers would do.
-static inline Bend bend_of(const QiNet *p, int du, int dv, QiForm f, double zu, double zv,
-                           const QiFrame *frame) {
-    double r[POINTS], uu = 0.0, vv = 0.0;
+// The mean second derivatives over the piece, and what is left. Any other numbers would do. r: the
+// values' control points, of which the remainder's are left; au, av their trends; slack their
+// rounding.
+static inline Bend bend_of_values(double *r, int du, int dv, double au, double av, double slack,
+                                  double zu, double zv) {
+    double uu = 0.0, vv = 0.0;
     int row = dv + 1, last = du * row;
-    for (int k = 0; k < (du + 1) * row; k++)
-        r[k] = f.bx * p->x[k] + f.by * p->y[k];
     // Sums of second differences along a line are differences of its ends' first ones.
     for (int j = 0; du > 1 && j <= dv; j++)
         uu += (r[last + j] - r[last - row + j]) - (r[row + j] - r[j]);
@@ -41,8 +41,8 @@ static inline Bend bend_of(const QiNet *p, int du, int dv, QiForm f, double zu, 
     b.uu = du > 1 ? 0.5 * uu * du / row : 0.0;
     b.vv = dv > 1 ? 0.5 * vv * dv / (du + 1) : 0.0;
     b.uv = (r[last + dv] - r[last]) - (r[dv] - r[0]);
-    b.u = f.au - b.uu - 0.5 * b.uv;
-    b.v = f.av - b.vv - 0.5 * b.uv;
+    b.u = au - b.uu - 0.5 * b.uv;
+    b.v = av - b.vv - 0.5 * b.uv;
 
     // u^2 has the control points i (i-1) / (d (d-1)), u v has i j / (du dv).
     double base[LINE], second[2], slope[2];
@@ -59,10 +59,58 @@ static inline Bend bend_of(const QiNet *p, int du, int dv, QiForm f, double zu, 
     differences(r, du, dv, second, slope);
     Span s = quasi_span(r, du, dv);
     double sizes = fabs(b.u) + fabs(b.v) + fabs(b.uu) + fabs(b.uv) + fabs(b.vv);
-    double eps = zu * second[0] + zv * second[1] + fabs(f.bx) * frame->slack_x +
-                 fabs(f.by) * frame->slack_y + 16.0 * DBL_EPSILON * sizes;
+    double eps = zu * second[0] + zv * second[1] + slack + 16.0 * DBL_EPSILON * sizes;
     b.rest = (Span){s.low - eps, s.high + eps};
     return b;
+}
+
+static inline Bend bend_of(const QiNet *p, int du, int dv, QiForm f, double zu, double zv,
+                           const QiFrame *frame) {
+    double r[POINTS];
+    for (int k = 0; k < (du + 1) * (dv + 1); k++)
+        r[k] = f.bx * p->x[k] + f.by * p->y[k];
+    double slack = fabs(f.bx) * frame->slack_x + fabs(f.by) * frame->slack_y;
+    return bend_of_values(r, du, dv, f.au, f.av, slack, zu, zv);
+}
+
+// h along the curve f = 0: within `rest` of zero + one w + two w^2.
+typedef struct {
+    double zero, one, two;
+    Span rest;
+} Along;
+
+// f: the form that grows; of: its remainder's span; u_grows: s is u. f.au or f.av is not 0.
+static inline Along bend_along(const Bend *h, QiForm f, Span of, bool u_grows, Span s, Span w) {
+    double a = u_grows ? f.au : f.av, b = u_grows ? f.av : f.au;
+    double cs = u_grows ? h->u : h->v, cw = u_grows ? h->v : h->u;
+    double css = u_grows ? h->uu : h->vv, cww = u_grows ? h->vv : h->uu, csw = h->uv;
+    double k = -b / a, m = -0.5 * (of.low + of.high) / a;
+    // m, k and k w carry a few roundings; |k| <= 1 and s is in [0,1], so |m| < 4 matters only.
+    double e = (0.5 * (of.high - of.low) / fabs(a) + 8.0 * DBL_EPSILON) * (1.0 + 0x1p-40);
+    double steep = 0.0; // |D| over the spans, which is linear
+    for (int n = 0; n < 4; n++)
+        steep = larger(steep, fabs(cs + 2.0 * css * (n & 1 ? s.low : s.high) +
+                                   csw * (n & 2 ? w.low : w.high)));
+    steep += fabs(css) * e;
+    double sizes = fabs(cs) + fabs(cw) + fabs(css) + fabs(csw) + fabs(cww);
+    double room = steep * e * (1.0 + 0x1p-40) + 256.0 * DBL_EPSILON * (1.0 + m * m) * sizes;
+    return (Along){(cs + css * m) * m,
+                   cw + k * (cs + 2.0 * css * m) + csw * m,
+                   cww + k * (csw + k * css),
+                   {h->rest.low - room, h->rest.high + room}};
+}
+
+// The values of h there, w in its span.
+static inline Span bend_values(const Along *h, Span w) {
+    double a = h->zero + (h->one + h->two * w.low) * w.low;
+    double b = h->zero + (h->one + h->two * w.high) * w.high;
+    Span v = {a < b ? a : b, a < b ? b : a};
+    double top = -0.5 * h->one / h->two;
+    if (top > w.low && top < w.high) {
+        double c = h->zero + 0.5 * h->one * top;
+        v = span_hull(v, (Span){c, c});
+    }
+    return (Span){v.low + h->rest.low, v.high + h->rest.high};
 }
 
 // Where in *whole is a + b w + c w^2 within `of`, c >= 0? At most two intervals.
@@ -119,22 +167,10 @@ static inline int bend_clip(const QiNet *p, int du, int dv, const QiForm f[2], S
     us[0] = u, vs[0] = v;
     if (!(a != 0.0))
         return 1;
-    double cs = u_grows ? h.u : h.v, cw = u_grows ? h.v : h.u;
-    double css = u_grows ? h.uu : h.vv, cww = u_grows ? h.vv : h.uu, csw = h.uv;
     Span s = u_grows ? u : v, w = u_grows ? v : u, parts[2];
-    double k = -b / a, m = -0.5 * (of.low + of.high) / a;
-    // m, k and k w carry a few roundings; |k| <= 1 and s is in [0,1], so |m| < 4 matters only.
-    double e = (0.5 * (of.high - of.low) / fabs(a) + 8.0 * DBL_EPSILON) * (1.0 + 0x1p-40);
-    double steep = 0.0; // |D| over the spans, which is linear
-    for (int n = 0; n < 4; n++)
-        steep = larger(steep, fabs(cs + 2.0 * css * (n & 1 ? s.low : s.high) +
-                                   csw * (n & 2 ? w.low : w.high)));
-    steep += fabs(css) * e;
-    double zero = (cs + css * m) * m, one = cw + k * (cs + 2.0 * css * m) + csw * m,
-           two = cww + k * (csw + k * css);
-    double sizes = fabs(cs) + fabs(cw) + fabs(css) + fabs(csw) + fabs(cww);
-    double room = steep * e * (1.0 + 0x1p-40) + 256.0 * DBL_EPSILON * (1.0 + m * m) * sizes;
-    Span value = {-h.rest.high - room, -h.rest.low + room};
+    Along along = bend_along(&h, f[0], of, u_grows, s, w);
+    double zero = along.zero, one = along.one, two = along.two;
+    Span value = {-along.rest.high, -along.rest.low};
     if (two < 0.0) {
         zero = -zero, one = -one, two = -two;
         value = (Span){-value.high, -value.low};

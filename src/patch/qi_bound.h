@@ -163,6 +163,7 @@ static inline void differences(const double *r, int du, int dv, double second[2]
 static inline Span quasi_span(const double *r, int du, int dv) {
     int row = dv + 1;
     double low[LINE], high[LINE], c[LINE], q[LINE];
+    low[0] = high[0] = r[0]; // for gcc, which does not know that du >= 0
     for (int i = 0; i <= du; i++) {
         const double *here = r + i * row;
         for (int j = 0; j <= dv; j++)

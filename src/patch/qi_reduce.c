@@ -378,6 +378,37 @@ static Span root_depths(const Search *q, const Piece *p) {
     return (Span){depth.low - slack, depth.high + slack};
 }
 
+// Do any depths count where the first form is 0, by bounds of the second order? Asked of w (z -
+// end), which is linear in z for rational pieces too, for both ends of the range.
+static bool curve_counts(const Search *q, const Piece *p) {
+    const QiTarget *target = &q->target;
+    const QiForm f = p->forms[0];
+    int du = target->du, dv = target->dv, count = (du + 1) * (dv + 1);
+    bool u_grows = fabs(f.au) >= fabs(f.av);
+    double a = u_grows ? f.au : f.av, r[POINTS];
+    const double ends[2] = {target->frame.z_low, qi_list_z_high(&target->list, &target->frame)};
+    for (int side = 0; side < 2; side++) {
+        if (!isfinite(ends[side]))
+            continue;
+        for (int k = 0; k < count; k++)
+            r[k] = (p->net.z[k] - ends[side]) * (target->rational ? p->net.w[k] : 1.0);
+        double au = trend_u(r, du, dv), av = trend_v(r, du, dv), times = (u_grows ? au : av) / a;
+        if (!isfinite(times))
+            return true;
+        for (int k = 0; k < count; k++)
+            r[k] -= times * (f.bx * p->net.x[k] + f.by * p->net.y[k]);
+        double slack = 2.0 * (target->frame.slack_z + fabs(times) * form_slack(f, &target->frame));
+        Bend h = bend_of_values(r, du, dv, trend_u(r, du, dv), trend_v(r, du, dv), slack,
+                                quasi_z_infinity(du), quasi_z_infinity(dv));
+        Along along = bend_along(&h, f, p->bounds[0].span, u_grows, u_grows ? p->u : p->v,
+                                 u_grows ? p->v : p->u);
+        Span value = bend_values(&along, u_grows ? p->v : p->u);
+        if (side == 0 ? value.high < 0.0 : value.low > 0.0)
+            return false;
+    }
+    return true;
+}
+
 // Pieces whose roots do not count, and those of a singular J in which the ray is as good as in the
 // surface.
 static inline bool finish_singular(Search *q, int count, const Piece *p, bool least) {
@@ -390,6 +421,7 @@ static inline bool finish_singular(Search *q, int count, const Piece *p, bool le
     if (!p->regular && p->bounds[0].slope < fmin(fabs(f[0].au), fabs(f[0].av)) &&
         weak_form(&p->net, count, f[1], 16.0 * form_slack(f[1], frame)) &&
         (qi_list_has(&q->target.list, frame, at.low, at.high, radius, p->left) ||
+         !curve_counts(q, p) ||
          qi_root_settle_curve(&q->target, p->left, f[0], form_slack(f[0], frame))))
         return true;
     bool near = q->target.rational ? within_rational(&p->net, count, radius)

@@ -2,12 +2,12 @@
 // Copies of a declared tree: where there are many, the scene has the tree once, as a definition,
 // and an instance for each copy. What is shown is the same, so all that POV-Ray works out for each
 // copy anew keeps it from being shared: bounds, whose boxes lie along the axes of the world;
-// lights; triangles under a mirror, whose outside does not turn with them; patches, whose triangles
-// and tolerances depend on their size; and so on (fits, below).
+// lights; triangles and patches under a mirror, whose outside does not turn with them; patches that
+// are stretched, or cut by a flatness: their triangles are others; and so on (part_fits, below).
 //
-// In a field of 1,000 bushes of 100 parts a copy takes 5 KB, before 700, and the picture a quarter
-// of the time; with 3 bushes neither differs. So a tree is shared when its copies would make
-// SHARE_LEAST parts, 14 MB of them: a smaller scene keeps each object where it is.
+// In a field of 1,000 bushes of 100 parts a copy takes 5 KB instead of 700, and the picture a
+// quarter of the time; with 3 bushes neither differs. So a tree is shared when its copies would
+// make SHARE_LEAST parts, 14 MB of them: a smaller scene keeps each object where it is.
 #include "converter/emit.h"
 
 #include <math.h>

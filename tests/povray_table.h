@@ -6,6 +6,14 @@
 
 #include <stddef.h>
 
+// A bent patch P, for a stage.
+#define TABLE_PATCH                                                                                \
+    "#declare P = bicubic_patch { type 1 flatness 0 u_steps 2 v_steps 2\n"                         \
+    "  <-1.5,-1.2,0>, <-1.5,-0.2,0.4>, <-1.5,0.8,0.8>, <-1.5,1.8,0>,\n"                            \
+    "  <-0.5,-1.2,0.4>, <-0.5,-0.2,0.8>, <-0.5,0.8,-1>, <-0.5,1.8,0.4>,\n"                         \
+    "  <0.5,-1.2,0.8>, <0.5,-0.2,-1>, <0.5,0.8,0.4>, <0.5,1.8,0.8>,\n"                             \
+    "  <1.5,-1.2,0>, <1.5,-0.2,0.4>, <1.5,0.8,0.8>, <1.5,1.8,0> }\n"
+
 enum { TABLE_WIDTH = 64, TABLE_HEIGHT = 48 };
 
 // For a cmocka test: it fails when in some scene more than `share` of the pixels are off by more

@@ -14,12 +14,7 @@
 static const char STAGE[] =
     "#declare R = pigment { rgb <1, 0.2, 0.1> }\n"
     "#declare G = pigment { rgb <0.2, 0.9, 0.3> }\n"
-    "#declare B = pigment { rgb <0.2, 0.3, 1> }\n"
-    "#declare P = bicubic_patch { type 1 flatness 0 u_steps 2 v_steps 2\n"
-    "  <-1.5,-1.2,0>, <-1.5,-0.2,0.4>, <-1.5,0.8,0.8>, <-1.5,1.8,0>,\n"
-    "  <-0.5,-1.2,0.4>, <-0.5,-0.2,0.8>, <-0.5,0.8,-1>, <-0.5,1.8,0.4>,\n"
-    "  <0.5,-1.2,0.8>, <0.5,-0.2,-1>, <0.5,0.8,0.4>, <0.5,1.8,0.8>,\n"
-    "  <1.5,-1.2,0>, <1.5,-0.2,0.4>, <1.5,0.8,0.8>, <1.5,1.8,0> }\n"
+    "#declare B = pigment { rgb <0.2, 0.3, 1> }\n" TABLE_PATCH
     "#declare Floor = plane { y, -1.5 pigment { checker rgb 0.3 rgb 0.9 } }\n"
     "#declare Eye = camera { location <1, 1.6, -4> right 4/3*x look_at 0 angle 50 }\n"
     "background { rgb <0.4, 0.5, 0.7> } light_source { <4, 8, -6>, 1 }\n";

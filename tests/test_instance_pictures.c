@@ -99,7 +99,7 @@ static void test_shared(void **state) {
     "bicubic_patch { type 1 flatness " flatness " u_steps 1 v_steps 1 " PATCH_POINTS "}"
 
 // A scene of few parts keeps each in its place, and what cannot be shared is not: lights, bounds,
-// triangles that are mirrored, patches.
+// triangles that are mirrored, patches that are stretched.
 static void test_not_shared(void **state) {
     (void)state;
     static const struct {

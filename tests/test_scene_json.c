@@ -154,8 +154,6 @@ static void test_comparison_sees(void **state) {
     arena_destroy(arena);
 }
 
-// Files are named from where the scene file stands.
-// Files are named from where the scene file stands.
 static void test_numbers(void **state) {
     (void)state;
     Rng rng = {1};
@@ -236,6 +234,7 @@ static void test_shared_maps(void **state) {
     arena_destroy(arena);
 }
 
+// Files are named from where the scene file stands.
 static void test_paths(void **state) {
     (void)state;
     Arena *arena = arena_create();
@@ -299,6 +298,19 @@ static void test_pattern_layout(void **state) {
         "],\"warps\":[{\"type\":\"cubic\"},{\"type\":\"black_hole\",\"center\":[0,0,0],"
         "\"radius\":3}],\"turbulence\":{\"amount\":[1,2,3],\"octaves\":4}}]"));
     arena_destroy(arena);
+}
+
+// bounded_by came behind boxed, and dents behind dispersion.
+static void test_requires_are_sorted(void **state) {
+    (void)state;
+    for (uint64_t number = 0; number < 150; number++) {
+        Arena *arena = arena_create();
+        Rng rng = {number};
+        const Scene *scene = random_scene(&rng, arena);
+        for (uint32_t i = 1; i < scene->requires_count; i++)
+            assert_true(strcmp(scene->requires[i - 1], scene->requires[i]) < 0);
+        arena_destroy(arena);
+    }
 }
 
 // Above 10,000 patches the points leave the text, and equal neighbours are one entry.
@@ -813,6 +825,7 @@ int main(void) {
         cmocka_unit_test(test_numbers),
         cmocka_unit_test(test_layout),
         cmocka_unit_test(test_pattern_layout),
+        cmocka_unit_test(test_requires_are_sorted),
         cmocka_unit_test(test_many_patches),
         cmocka_unit_test(test_deep_unions),
         cmocka_unit_test(test_unwritable),

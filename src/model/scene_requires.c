@@ -15,9 +15,9 @@
     X(bezier_patch)                                                                                \
     X(bicubic_patch)                                                                               \
     X(blob)                                                                                        \
+    X(bounded_by)                                                                                  \
     X(box)                                                                                         \
     X(boxed)                                                                                       \
-    X(bounded_by)                                                                                  \
     X(bozo)                                                                                        \
     X(brick)                                                                                       \
     X(brilliance)                                                                                  \
@@ -39,10 +39,10 @@
     X(cylinder_light)                                                                              \
     X(cylindrical)                                                                                 \
     X(density_file)                                                                                \
-    X(dispersion)                                                                                  \
     X(dents)                                                                                       \
     X(diffuse_back)                                                                                \
     X(disc)                                                                                        \
+    X(dispersion)                                                                                  \
     X(double_illuminate)                                                                           \
     X(facets)                                                                                      \
     X(fisheye)                                                                                     \

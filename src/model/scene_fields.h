@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Inside the room: what the scene file calls each member of the structs in scene.h, and how it is
 // stored. scene_write.c and scene_read.c both walk these tables, so a member added here is written,
-// read and refused when wrong; tests/test_scene_json.c walks them too.
+// read and refused when wrong.
 #ifndef MODEL_SCENE_FIELDS_H
 #define MODEL_SCENE_FIELDS_H
 

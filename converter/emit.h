@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What emit.c, emit_pigment.c, emit_normal.c and emit_texture.c share: the pools of the scene while
-// they grow.
+// What emit.c and its parts, emit_*.c, share: the pools of the scene while they grow.
 #ifndef CONVERTER_EMIT_H
 #define CONVERTER_EMIT_H
 
@@ -78,6 +77,18 @@ const Scene *emit_part(Converter *cv, const ObjectNode *object, const PatternNod
 void emit_gap(Emitter *e, const Loc *loc, const char *text);
 void emit_gaps(Emitter *e, const Gap *gaps); // in the order in which they were noted
 
+// ---- emit_object.c -----------------------------------------------------------------------------
+
+// All that stands at top level.
+void emit_roots(Emitter *e);
+// Is there anything of the object that the scene can hold? An intersection needs all that bounds
+// it.
+bool object_is_there(const ObjectNode *object);
+// Stores an object of which only the shape counts; NO_INDEX: there is nothing.
+uint32_t emit_body(Emitter *e, const ObjectNode *object);
+// The same, among the objects that are not in the picture: its place in scene->projections.
+uint32_t emit_hidden(Emitter *e, const ObjectNode *object);
+
 // ---- emit_pool.c -------------------------------------------------------------------------------
 
 // Hashes (base/hash.h) go over members, not structs, since the bytes between members may be
@@ -93,10 +104,6 @@ void node_put(Emitter *e, NodeTable *table, const void *node, uint32_t index);
 
 // Where `at` falls in the map: the entry at or above it and the one below.
 void map_bracket(const MapNode *map, float at, uint32_t *below, uint32_t *above);
-// emit.c: is there anything of the object that the scene can hold? Its place among the objects that
-// are not in the picture; NO_INDEX: there is nothing.
-bool object_is_there(const ObjectNode *object);
-uint32_t emit_hidden(Emitter *e, const ObjectNode *object);
 
 // Can the scene hold it?
 bool pattern_is_modelled(const PatternNode *pattern);

@@ -5,8 +5,7 @@
 
 #include <string.h>
 
-// ---- what is not modelled
-// ----------------------------------------------------------------------------
+// ---- what is not modelled --------------------------------------------------------------------
 
 static Color mix(Color a, Color b, float w) {
     return (Color){a.r + w * (b.r - a.r), a.g + w * (b.g - a.g), a.b + w * (b.b - a.b),
@@ -52,8 +51,7 @@ static Color middle_color(Emitter *e, const PatternNode *pigment) {
     return width > 0 ? mix(a, b, (0.5F - map->items[below].value) / width) : b;
 }
 
-// ---- patterns
-// -------------------------------------------------------------------------------------------
+// ---- patterns --------------------------------------------------------------------------------
 
 void emit_warps(Emitter *e, const PatternNode *node, Pattern *pattern) {
     uint32_t count = 0;
@@ -190,8 +188,7 @@ uint64_t pattern_hash(uint64_t hash, const Pattern *p) {
     return hash;
 }
 
-// ---- pigments
-// -------------------------------------------------------------------------------------------
+// ---- pigments --------------------------------------------------------------------------------
 
 static void copy_entries(Emitter *e, const PatternNode *node, Pigment *pigment) {
     const MapNode *map = node->map ? node->map : map_default(e->cv, node->info);

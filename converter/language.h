@@ -258,8 +258,7 @@ void expect_raw(Converter *cv, int code, const char *where);
 void limits_start(Converter *cv);
 void count_token(Converter *cv);
 
-// ---- directive.c, loop.c, macro.c, user_file.c
-// ----------------------------------------------------
+// ---- directive.c, loop.c, macro.c, user_file.c -----------------------------------------------
 
 void run_directive(Converter *cv, const Token *hash); // after its '#'
 void check_all_closed(Converter *cv);                 // at the end of the main file

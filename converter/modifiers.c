@@ -151,8 +151,7 @@ static bool parse_radiosity_modifier(Converter *cv) {
     return true;
 }
 
-// ---- bounded_by, clipped_by
-// ------------------------------------------------------------------------
+// ---- bounded_by, clipped_by ------------------------------------------------------------------
 
 // OBJECT* transforms. The transforms move all of them.
 static ObjectNode *parse_bodies(Converter *cv, const char *where) {
@@ -219,8 +218,7 @@ static bool parse_bound(Converter *cv, ObjectNode *node) {
     return true;
 }
 
-// ---- textures
-// ------------------------------------------------------------------------------------------
+// ---- textures --------------------------------------------------------------------------------
 
 static bool parse_texture_or_interior(Converter *cv, ObjectNode *node) {
     const Token *token = peek_token(cv);

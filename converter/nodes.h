@@ -57,8 +57,7 @@ bool parse_move(Converter *cv, Move *move);
 // After the keyword `transform`: an identifier or a block.
 Transform parse_transform(Converter *cv);
 
-// ---- patterns: pattern.c, pattern_args.c, warp.c, map.c, image.c
-// -----------------------------------------
+// ---- patterns: pattern.c, pattern_args.c, warp.c, map.c, image.c -----------------------------
 
 // In which kind of block a pattern stands.
 typedef enum { USE_PIGMENT, USE_NORMAL, USE_TEXTURE, USE_DENSITY } PatternUse;
@@ -159,8 +158,7 @@ typedef struct {
 } ImagePalette;
 ImagePalette image_palette(const Picture *picture);
 
-// ---- textures: texture.c, finish.c, interior.c
-// ---------------------------------------------------
+// ---- textures: texture.c, finish.c, interior.c -----------------------------------------------
 
 typedef struct {
     Finish finish;
@@ -223,8 +221,7 @@ typedef struct {
     bool given[2]; // of reuse
 } RadiosityLimits;
 
-// ---- lights, camera, surroundings: light.c, camera.c, atmosphere.c, settings.c
-// --------------------
+// ---- lights, camera, surroundings: light.c, camera.c, atmosphere.c, settings.c ---------------
 
 typedef struct ObjectNode ObjectNode;
 
@@ -282,8 +279,7 @@ void light_move(LightNode *light, const Move *move);
 // What the light is when all of it has been read.
 Light light_finished(const LightNode *node);
 
-// ---- objects: object.c, shapes.c, patch.c, shapes_other.c, csg.c, modifiers.c, extent.c
-// -----------
+// ---- objects: object.c, shapes.c, patch.c, shapes_other.c, csg.c, modifiers.c, extent.c ------
 
 // `object` carries the shape, the transform and the flags in the scene's own form; its texture,
 // interior and children are filled by emit.c.
@@ -384,8 +380,7 @@ void extent_begin(ObjectNode *object); // of meshes and quadrics
 void extent_move(ObjectNode *object, const Move *move);
 void extent_bound(ObjectNode *object); // of any object, at the end of its modifiers
 
-// ---- the whole: statement.c, emit.c
-// --------------------------------------------------------------
+// ---- the whole: statement.c, emit.c ----------------------------------------------------------
 
 typedef struct RootNode {
     struct RootNode *next;

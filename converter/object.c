@@ -243,8 +243,7 @@ void object_invert(Converter *cv, ObjectNode *object) {
     }
 }
 
-// ---- statements
-// -------------------------------------------------------------------------------------
+// ---- statements ------------------------------------------------------------------------------
 
 static bool starts_statement(int code) {
     return shape_parser(code) || solid_parser(code) || shape_other_parser(code) ||

@@ -186,8 +186,7 @@ ParseShape *shape_parser(int keyword) {
     }
 }
 
-// ---- transforms
-// ---------------------------------------------------------------------------------------
+// ---- transforms ------------------------------------------------------------------------------
 
 static Vec3 move_point(Vec3 p, const Move *move) {
     switch (move->kind) {

@@ -2,8 +2,7 @@
 // The top level of a scene, the values of #declare, and #default (facts: sdl 3.2, 3.6, 4.1).
 #include "converter/nodes.h"
 
-// ---- values
-// -----------------------------------------------------------------------------------------
+// ---- values ----------------------------------------------------------------------------------
 
 static Value node_value(ValueType type, const void *node) {
     return (Value){.type = type, .node = (void *)(uintptr_t)node};
@@ -135,8 +134,7 @@ bool parse_statement_value(Converter *cv, Value *out) {
     return object != NULL;
 }
 
-// ---- #default
-// -----------------------------------------------------------------------------------------
+// ---- #default --------------------------------------------------------------------------------
 
 static void set_default_texture(Converter *cv, const Token *token, const TextureNode *texture) {
     if (!texture_is_plain(texture) || texture->below) {
@@ -167,8 +165,7 @@ void parse_default_block(Converter *cv) {
     nodes->in_default = false;
 }
 
-// ---- the top level
-// --------------------------------------------------------------------------------------
+// ---- the top level ---------------------------------------------------------------------------
 
 static void add_root(Converter *cv, ObjectNode *object) {
     Nodes *nodes = cv->nodes;

@@ -16,8 +16,7 @@ static TextureNode *copy_texture(Converter *cv, const TextureNode *texture) {
     return arena_copy(cv->arena, texture, sizeof *texture);
 }
 
-// ---- pigment, normal, density
-// ---------------------------------------------------------------------
+// ---- pigment, normal, density ----------------------------------------------------------------
 
 const PatternNode *parse_pigment_body(Converter *cv, const PatternNode *base) {
     const Value *value = accept_value(cv, VALUE_PIGMENT);
@@ -67,8 +66,7 @@ const PatternNode *parse_density_block(Converter *cv) {
     return node;
 }
 
-// ---- layers
-// ---------------------------------------------------------------------------------------
+// ---- layers ----------------------------------------------------------------------------------
 
 static Color filter_to_transmit(Color c) {
     c.transmit += c.filter;
@@ -145,8 +143,7 @@ const TextureNode *texture_moved(Converter *cv, const TextureNode *texture, Move
     return first;
 }
 
-// ---- texture
-// ----------------------------------------------------------------------------------------
+// ---- texture ---------------------------------------------------------------------------------
 
 // pigment{}, normal{} or finish{}: edits the top layer only.
 static bool parse_part(Converter *cv, const TextureNode **texture) {

@@ -61,8 +61,7 @@ static void write_pictures(const OwnFolder *place) {
     image_write(own_path(place, "small.png"), plain(place->arena, 9, 10, 0.4f), &o);
 }
 
-// ---- tests
-// ----------------------------------------------------------------------------------------
+// ---- tests -----------------------------------------------------------------------------------
 
 static void exit_status(void **state) {
     OwnFolder *place = *state;

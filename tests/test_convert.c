@@ -18,8 +18,7 @@
 #include <string.h>
 #include <unistd.h>
 
-// ---- shapes and transforms
-// ------------------------------------------------------------------------
+// ---- shapes and transforms -------------------------------------------------------------------
 
 static void sphere_keeps_its_numbers(void **state) {
     (void)state;
@@ -160,8 +159,7 @@ static void inverse_objects(void **state) {
     assert_warns("triangle { 0, x, y inverse }", "inverse has no effect");
 }
 
-// ---- patches
-// ----------------------------------------------------------------------------------------
+// ---- patches ---------------------------------------------------------------------------------
 
 static void patch_fields(void **state) {
     (void)state;
@@ -262,8 +260,7 @@ static void patch_bounds(void **state) {
     assert_dies(text, "without an inside");
 }
 
-// ---- inheritance
-// ------------------------------------------------------------------------------------
+// ---- inheritance -----------------------------------------------------------------------------
 
 static void unions_pass_on(void **state) {
     (void)state;
@@ -396,8 +393,7 @@ static void trees_and_clips(void **state) {
     assert_warns(text, "cutaway_textures among so many textures");
 }
 
-// ---- what is not modelled
-// ---------------------------------------------------------------------------
+// ---- what is not modelled --------------------------------------------------------------------
 
 static void gaps_are_said_when_used(void **state) {
     (void)state;
@@ -434,8 +430,7 @@ static void empty_scenes(void **state) {
     assert_dies("sphere { 0, 1 wobble }", "2:15: error");
 }
 
-// ---- bounding boxes
-// ---------------------------------------------------------------------------------
+// ---- bounding boxes --------------------------------------------------------------------------
 
 // min_extent and max_extent of the converter against those of povray, for one object a line.
 static void extents_are_those_of_povray(void **state) {
@@ -533,8 +528,7 @@ static void extents_are_those_of_povray(void **state) {
     }
 }
 
-// ---- whole scenes
-// -----------------------------------------------------------------------------------
+// ---- whole scenes ----------------------------------------------------------------------------
 
 static void converts(const char *path) {
     if (access(path, R_OK) != 0) {

@@ -65,8 +65,7 @@ static void write_body(void *arg) {
     image_write(w->path, w->image, &w->options);
 }
 
-// ---- tests
-// ----------------------------------------------------------------------------------------
+// ---- tests -----------------------------------------------------------------------------------
 
 static void extensions(void **state) {
     (void)state;
@@ -330,8 +329,7 @@ static void unreadable_pictures(void **state) {
     }
 }
 
-// ---- comparison
-// -----------------------------------------------------------------------------------
+// ---- comparison ------------------------------------------------------------------------------
 
 static void equal_pictures(void **state) {
     OwnFolder *place = *state;

@@ -67,8 +67,7 @@ static void refuses(OptionsProgram program, Arena *arena, const char *line, cons
     assert_true(strchr(text, '\n') == text + strlen(text) - 1); // one line
 }
 
-// ---- tests
-// ----------------------------------------------------------------------------------------
+// ---- tests -----------------------------------------------------------------------------------
 
 static void defaults(void **state) {
     Arena *arena = *state;

@@ -82,8 +82,7 @@ static Image *render_ball(Arena *arena, const char *line, RenderStats *stats) {
     return render_scene(ball(arena), &o, arena, &write, stats);
 }
 
-// ---- tests
-// ----------------------------------------------------------------------------------------
+// ---- tests -----------------------------------------------------------------------------------
 
 static void equal_to_the_reference(void **state) {
     (void)state;

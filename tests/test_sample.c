@@ -18,8 +18,7 @@
 #include <stdio.h>
 #include <string.h>
 
-// ---- the scene in our words and in POV-Ray's
-// ------------------------------------------------------
+// ---- the scene in our words and in POV-Ray's -------------------------------------------------
 
 typedef struct {
     Vec3 center;
@@ -87,8 +86,7 @@ static Camera camera_of(const char *text) {
                     .right = {-1.33, 0, 0}};
 }
 
-// ---- one comparison
-// -------------------------------------------------------------------------------
+// ---- one comparison --------------------------------------------------------------------------
 
 typedef struct {
     const char *switches; // for POV-Ray
@@ -170,8 +168,7 @@ static void compare_all(const Case *cases, size_t count) {
 }
 #define COMPARE_ALL(cases) compare_all(cases, sizeof cases / sizeof *cases)
 
-// ---- tests
-// ----------------------------------------------------------------------------------------
+// ---- tests -----------------------------------------------------------------------------------
 
 static void permutation_and_offsets(void **state) {
     (void)state;

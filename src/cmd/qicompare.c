@@ -20,8 +20,7 @@
 // A pixel is off when it differs by more than one step of 8 bits.
 static const double ONE_STEP = 1.0 / 255.0 * (1.0 + 1e-4);
 
-// ---- renders
-// --------------------------------------------------------------------------------------
+// ---- renders ---------------------------------------------------------------------------------
 
 // One scene at work.
 typedef struct {
@@ -131,8 +130,7 @@ static const char *tell(const Job *job, int x, int y, bool facets) {
     return start ? start : s.run.log;
 }
 
-// ---- causes
-// ---------------------------------------------------------------------------------------
+// ---- causes ----------------------------------------------------------------------------------
 
 static bool any_shading(const ComparePage *page) {
     for (int i = 0; i < page->place_count; i++)
@@ -234,8 +232,7 @@ static void find_places(const RenderOptions *o, ComparePage *page) {
     arena_destroy(scratch);
 }
 
-// ---- results
-// --------------------------------------------------------------------------------------
+// ---- results ---------------------------------------------------------------------------------
 
 static void print_limit(uint64_t count, uint64_t pixels, double limit) {
     printf("  %llu pixels (%.3g%%) over %g\n", (unsigned long long)count,
@@ -303,8 +300,7 @@ static const char *output_folder(const RenderOptions *o, Arena *arena) {
     return folder;
 }
 
-// ---- comparisons
-// ----------------------------------------------------------------------------------
+// ---- comparisons -----------------------------------------------------------------------------
 
 static void finish(const RenderOptions *o, ComparePage *page) {
     page->left = o->region[2] ? o->region[0] : 0;

@@ -76,8 +76,7 @@ static double peak_megabytes(void) {
     return (double)use.ru_maxrss / 1024.0;
 }
 
-// ---- statistics
-// -----------------------------------------------------------------------------------
+// ---- statistics ------------------------------------------------------------------------------
 
 static void print_count(const char *what, uint64_t count) {
     if (count)

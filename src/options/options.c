@@ -56,8 +56,7 @@ const char *option_program_name(OptionsProgram program) {
     return names[program];
 }
 
-// ---- values
-// ---------------------------------------------------------------------------------------
+// ---- values ----------------------------------------------------------------------------------
 
 bool option_number(const char *text, double *out) {
     // strtod also takes "inf", "nan", hexadecimals and leading blanks.

@@ -62,8 +62,7 @@ static bool apply_row(Parse *parse, const OptionRow *row, bool on, const char *v
     return true;
 }
 
-// ---- messages
-// -------------------------------------------------------------------------------------
+// ---- messages --------------------------------------------------------------------------------
 
 bool option_refuse(const Parse *parse, const char *word, const char *why) {
     if (parse->loc.file)
@@ -157,8 +156,7 @@ static bool refuse_unknown(const Parse *parse, const char *word, Form form, cons
     return option_refuse(parse, word, why);
 }
 
-// ---- words
-// ----------------------------------------------------------------------------------------
+// ---- words -----------------------------------------------------------------------------------
 
 // A copy of value without the quotes around it.
 static const char *unquoted(Parse *parse, const char *value) {

@@ -34,8 +34,7 @@ static void put_picture(FILE *out, const Image *image, const char *alt, const ch
     arena_destroy(scratch);
 }
 
-// ---- sections
-// -------------------------------------------------------------------------------------
+// ---- sections --------------------------------------------------------------------------------
 
 static void put_head(FILE *out, const ComparePage *page) {
     const Image *image = page->side[0].image;

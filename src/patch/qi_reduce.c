@@ -10,13 +10,14 @@
 //
 // Single roots: with L = |dr/du| + |dr/dv| (and for s; bounds from the control points, largest of
 // both) two roots p, q of the piece have |p - q| <= L |p - q| in the larger coordinate, so L < 1
-// leaves at most one. From L <= 1/4 on, Newton held inside the piece cannot fail: the inverse of a
-// Jacobian times J is at most 1/(1 - L), two Jacobians differ by 2 L at most, so a step multiplies
-// the error by 2 L / (1 - L) = 2/3 or less, and quadratically less as it goes on. It ends on the
-// root, or, when the piece has none, on a residual that rounding does not explain: a proved miss.
-// Between 1/4 and 1 Newton is tried as well: what it finds is the only root, if it fails nothing
-// is proved and the reduction goes on. All of that holds for the forms below as well, since it is
-// asked of A (x, y), which is made from them: a root at a small angle is as single as any.
+// leaves at most one. The inverse of a Jacobian times J is at most 1/(1 - L), two Jacobians differ
+// by 2 L at most, so a Newton step multiplies the error by 2 L / (1 - L): below 1 from L < 1/3 on,
+// and quadratically less as it goes on. From L <= 3/4 on it is tried. What it ends on is the only
+// root. If it ends on none, held at the piece's side or kept off by rounding, that proves nothing
+// by itself; but the same L then tells from its last point where a root would be, and unless that
+// is outside of the piece the reduction goes on. All of that holds for the forms below as well,
+// since it is asked of A (x, y), which is made from them: a root at a small angle is as single as
+// any.
 //
 // Where J is singular (collapsed edges, silhouettes, rays in the surface) the map is a rotation to
 // the direction of the larger tangent and the one across, after x and y were measured in units of
@@ -47,8 +48,8 @@ static const double LEAST_WIDTH = 0x1p-49;
 // that is narrower than the tolerance is not hit beside it, and of two crossings nearer to each
 // other than that the first is found.
 static const uint64_t PATIENCE = 96;
-// L from which on Newton cannot fail, and from which on it is tried.
-static const double CERTAIN_SLOPE = 0.25, LIKELY_SLOPE = 0.75;
+// L from which on Newton is tried.
+static const double LIKELY_SLOPE = 0.75;
 
 typedef struct {
     QiTarget target;
@@ -73,8 +74,8 @@ static void narrow(double *low, double *high, Span part) {
 // hull holds the piece since weights are positive.
 
 // Scales the piece's weights to at most 1, so that the rounding of x w is no more than that of x,
-// and turns z into depths.
-static void scale_rational(QiNet *p, int count) {
+// and turns z into depths. Returns the factor.
+static double scale_rational(QiNet *p, int count) {
     double scale = 1.0 / largest(p->w, count);
     for (int k = 0; k < count; k++) {
         p->x[k] *= scale;
@@ -82,6 +83,7 @@ static void scale_rational(QiNet *p, int count) {
         p->z[k] /= p->w[k];
         p->w[k] *= scale;
     }
+    return scale;
 }
 
 static bool within_rational(const QiNet *p, int count, double radius) {
@@ -175,6 +177,7 @@ static inline bool nearer_low(bool along_u, bool regular, QiForm f, double zu, d
 typedef struct {
     BezierRect rect, left; // before and after the step
     QiNet net;
+    double scale; // of the weights: net.x is x w scale
     QiForm forms[2];
     Remainder bounds[2];
     Span u, v;    // what the bounds leave, in the piece's own parameters
@@ -238,6 +241,7 @@ static inline bool reduce_piece(Search *q, int du, int dv, Piece *p) {
     double wu[LINE * LINE], wv[LINE * LINE];
     int count = (du + 1) * (dv + 1);
     q->steps++;
+    p->scale = 1.0;
     restriction(wu, du + 1, 1, du, r.u0, r.u1);
     restriction(wv, 1, dv + 1, dv, r.v0, r.v1);
     restrict_axis(target->whole.x, wu, wv, du, dv, p->net.x);
@@ -245,7 +249,7 @@ static inline bool reduce_piece(Search *q, int du, int dv, Piece *p) {
     if (target->rational) {
         restrict_axis(target->whole.z, wu, wv, du, dv, p->net.z);
         restrict_axis(target->whole.w, wu, wv, du, dv, p->net.w);
-        scale_rational(&p->net, count);
+        p->scale = scale_rational(&p->net, count);
     }
     if (!read_off(target, &target->frame, du, dv, p) || (q->collapsed && !clip_poles(q, p)))
         return false;
@@ -254,42 +258,69 @@ static inline bool reduce_piece(Search *q, int du, int dv, Piece *p) {
     return depths_count(target, target->frame.slack_z, p, count);
 }
 
-// L, and the rounding of the parameters of a root in a piece's own units. A rotation's forms
+// What a piece's forms say of its roots, in units of its own parameters: the linear map A that
+// makes (x, y) one of the parameters, L, and the rounding of a root.
+typedef struct {
+    double ux, uy, vx, vy; // A's rows: u + r = ux x + uy y
+    double slope;
+    double slack_u, slack_v;
+} Contraction;
+
+// A rotation's forms
 //     a s + b w + f,  c w + h    (s: the parameter of the larger tangent)
 // are divided by their matrix, whatever the angle between the tangents: s + (f - b/c h)/a, w + h/c.
-static inline void contraction(const Piece *p, const QiFrame *frame, double *slope, double *slack_u,
-                               double *slack_v) {
+static inline Contraction contraction(const Piece *p, const QiFrame *frame) {
     const QiForm *f = p->forms;
     double slope_0 = p->bounds[0].slope, slope_1 = p->bounds[1].slope;
     double slack_0 = form_slack(f[0], frame), slack_1 = form_slack(f[1], frame);
-    if (p->regular) {
-        *slope = larger(slope_0, slope_1);
-        *slack_u = slack_0;
-        *slack_v = slack_1;
-        return;
-    }
+    if (p->regular)
+        return (Contraction){f[0].bx, f[0].by, f[1].bx, f[1].by, larger(slope_0, slope_1),
+                             slack_0, slack_1};
     bool along_u = fabs(f[0].au) >= fabs(f[0].av);
-    double a = fabs(along_u ? f[0].au : f[0].av), b = fabs(along_u ? f[0].av : f[0].au);
-    double c = fabs(along_u ? f[1].av : f[1].au), zero = fabs(along_u ? f[1].au : f[1].av);
-    slope_1 = (slope_1 + zero) / c;
-    slack_1 /= c;
-    *slope = larger((slope_0 + b * slope_1) / a, slope_1);
-    slack_0 = (slack_0 + b * slack_1) / a;
-    *slack_u = along_u ? slack_0 : slack_1;
-    *slack_v = along_u ? slack_1 : slack_0;
+    double a = along_u ? f[0].au : f[0].av, b = along_u ? f[0].av : f[0].au;
+    double c = along_u ? f[1].av : f[1].au, zero = along_u ? f[1].au : f[1].av;
+    slope_1 = (slope_1 + fabs(zero)) / fabs(c);
+    slack_1 /= fabs(c);
+    slack_0 = (slack_0 + fabs(b) * slack_1) / fabs(a);
+    double slope = larger((slope_0 + fabs(b) * slope_1) / fabs(a), slope_1);
+    double wx = f[1].bx / c, wy = f[1].by / c;
+    double sx = (f[0].bx - b * wx) / a, sy = (f[0].by - b * wy) / a;
+    return along_u ? (Contraction){sx, sy, wx, wy, slope, slack_0, slack_1}
+                   : (Contraction){wx, wy, sx, sy, slope, slack_1, slack_0};
+}
+
+// Is a root of the piece impossible, by one of its points? With d = q - root and A (x, y) = g at q,
+// the root's being 0, |g - d| <= L |d| + slack: so |d| <= R = (|g| + slack) / (1 - L), and each
+// coordinate of d is within L R + slack of g's.
+static bool misses_from(const Piece *p, const Contraction *c, const QiPoint *q) {
+    const BezierRect *r = &p->rect, *left = &p->left;
+    double x = q->x * p->scale, y = q->y * p->scale;
+    double gu = c->ux * x + c->uy * y, gv = c->vx * x + c->vy * y;
+    // A's own roundings, of numbers that may cancel.
+    double ulps = 8.0 * DBL_EPSILON;
+    double slack_u = c->slack_u + ulps * (fabs(c->ux * x) + fabs(c->uy * y));
+    double slack_v = c->slack_v + ulps * (fabs(c->vx * x) + fabs(c->vy * y));
+    double reach = larger(fabs(gu) + slack_u, fabs(gv) + slack_v) / (1.0 - c->slope);
+    double width_u = r->u1 - r->u0, width_v = r->v1 - r->v0;
+    double room_u = (c->slope * reach + slack_u) * width_u + ulps;
+    double room_v = (c->slope * reach + slack_v) * width_v + ulps;
+    double u = q->u - gu * width_u, v = q->v - gv * width_v;
+    return u - room_u > left->u1 || u + room_u < left->u0 || v - room_v > left->v1 ||
+           v + room_v < left->v0;
 }
 
 // Is there one root at most, and was it found or proved absent?
 static bool finish_single(Search *q, const Piece *p) {
-    double slope, slack_u, slack_v;
-    contraction(p, &q->target.frame, &slope, &slack_u, &slack_v);
-    if (!(slope <= LIKELY_SLOPE && slack_u <= 0.5 && slack_v <= 0.5))
+    Contraction c = contraction(p, &q->target.frame);
+    if (!(c.slope <= LIKELY_SLOPE && c.slack_u <= 0.5 && c.slack_v <= 0.5))
         return false;
     // Twice the rounding that Newton may leave, times 1 / (1 - L).
-    double times = 2.0 * QI_ROOT_SLACKS / (1.0 - slope);
-    double error_u = times * slack_u * (p->rect.u1 - p->rect.u0);
-    double error_v = times * slack_v * (p->rect.v1 - p->rect.v0);
-    return qi_root_sharpen(&q->target, p->left, error_u, error_v) || slope <= CERTAIN_SLOPE;
+    double times = 2.0 * QI_ROOT_SLACKS / (1.0 - c.slope);
+    double error_u = times * c.slack_u * (p->rect.u1 - p->rect.u0);
+    double error_v = times * c.slack_v * (p->rect.v1 - p->rect.v0);
+    QiPoint last;
+    return qi_root_sharpen(&q->target, p->left, error_u, error_v, &last) ||
+           misses_from(p, &c, &last);
 }
 
 // The depths of the control points of a rational piece: its own depths are means of them.
@@ -548,6 +579,7 @@ static Step step_local(Search *q, BezierRect rect, Rest *rest) {
     QiFrame frame = target->frame;
     Piece p;
     p.rect = rect;
+    p.scale = 1.0;
     q->steps++;
     QiLocalPart part;
     qi_local_part(&q->local, rect, &part);

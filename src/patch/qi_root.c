@@ -9,6 +9,7 @@ enum { LINE = BEZIER_MAX_DEGREE + 1 };
 
 typedef struct {
     double x, y, z, xu, yu, xv, yv;
+    double w; // the weight
 } Point;
 
 // Bernstein polynomials and their derivatives at t.
@@ -27,12 +28,11 @@ static inline void basis(int d, double t, double *value, double *slope) {
     }
 }
 
-// weight: of a rational patch, gets W; else NULL.
-static inline Point eval_net(const QiNet *n, int du, int dv, double u, double v, double *weight) {
+static inline Point eval_net(const QiNet *n, int du, int dv, double u, double v, bool rational) {
     double wu[LINE], su[LINE], wv[LINE], sv[LINE], sum = 0.0;
     basis(du, u, wu, su);
     basis(dv, v, wv, sv);
-    Point p = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
+    Point p = {.w = 1.0};
     for (int i = 0; i <= du; i++) {
         const double *x = n->x + i * (dv + 1), *y = n->y + i * (dv + 1), *z = n->z + i * (dv + 1);
         double rx = 0.0, ry = 0.0, rz = 0.0, rxv = 0.0, ryv = 0.0;
@@ -51,29 +51,29 @@ static inline Point eval_net(const QiNet *n, int du, int dv, double u, double v,
         p.xv += rxv * wu[i];
         p.yv += ryv * wu[i];
         double row = 0.0;
-        for (int j = 0; weight && j <= dv; j++)
+        for (int j = 0; rational && j <= dv; j++)
             row += n->w[i * (dv + 1) + j] * wv[j];
         sum += row * wu[i];
     }
-    if (weight)
-        *weight = sum;
+    if (rational)
+        p.w = sum;
     return p;
 }
 
 // All divided by the weight: x, y and z are the point's, the derivatives those of (x w, y w) / w.
 // Newton's step towards x w = y w = 0 is the same with or without that factor.
 static Point eval_rational(const QiTarget *q, double u, double v) {
-    double sum;
-    Point p = eval_net(&q->whole, q->du, q->dv, u, v, &sum);
-    return (Point){p.x / sum, p.y / sum, p.z / sum, p.xu / sum, p.yu / sum, p.xv / sum, p.yv / sum};
+    Point p = eval_net(&q->whole, q->du, q->dv, u, v, true);
+    return (Point){p.x / p.w,  p.y / p.w,  p.z / p.w,  p.xu / p.w,
+                   p.yu / p.w, p.xv / p.w, p.yv / p.w, p.w};
 }
 
 static Point eval(const QiTarget *q, double u, double v) {
     if (q->rational)
         return eval_rational(q, u, v);
     if (q->du == 3 && q->dv == 3)
-        return eval_net(&q->whole, 3, 3, u, v, NULL);
-    return eval_net(&q->whole, q->du, q->dv, u, v, NULL);
+        return eval_net(&q->whole, 3, 3, u, v, false);
+    return eval_net(&q->whole, q->du, q->dv, u, v, false);
 }
 
 static double clamp(double x, double low, double high) {
@@ -143,7 +143,25 @@ static void step_inside(const QiTarget *q, BezierRect rect, Point p, double *u, 
     *v = clamp(nv, rect.v0, rect.v1);
 }
 
-bool qi_root_sharpen(QiTarget *q, BezierRect rect, double error_u, double error_v) {
+// Where the tangents are nearly parallel, rounding lets Newton's step err along both, by far more
+// than across them, and what bends on that way can be 1e4 times its rounding off the ray again: the
+// steps would wander for ever. So once p is on the ray but for a way along the larger tangent,
+// which is well known, only that parameter moves. False: that is not so.
+static bool step_along(const QiTarget *q, BezierRect rect, Point p, double *u, double *v) {
+    double x = p.x * q->unit_x, xu = p.xu * q->unit_x, xv = p.xv * q->unit_x;
+    double y = p.y * q->unit_y, yu = p.yu * q->unit_y, yv = p.yv * q->unit_y;
+    double uu = xu * xu + yu * yu, vv = xv * xv + yv * yv, most = uu >= vv ? uu : vv;
+    double across = uu >= vv ? xu * y - yu * x : xv * y - yv * x, within = 0.5 * QI_ROOT_SLACKS;
+    if (!(across * across <= within * within * most) || on_ray(q, p, QI_ROOT_SLACKS))
+        return false;
+    if (uu >= vv)
+        *u = clamp(*u - (x * xu + y * yu) / uu, rect.u0, rect.u1);
+    else
+        *v = clamp(*v - (x * xv + y * yv) / vv, rect.v0, rect.v1);
+    return true;
+}
+
+bool qi_root_sharpen(QiTarget *q, BezierRect rect, double error_u, double error_v, QiPoint *at) {
     double u = 0.5 * (rect.u0 + rect.u1), v = 0.5 * (rect.v0 + rect.v1);
     Point p = eval(q, u, v);
     // Below an ulp of 1 a polynomial moves by less than its slacks, a rational patch by any length.
@@ -151,7 +169,10 @@ bool qi_root_sharpen(QiTarget *q, BezierRect rect, double error_u, double error_
     // At 2/3 a step throughout, 96 steps would still take any start to 2^-53 of the piece.
     for (int n = 0; n < 96; n++) {
         double nu = u, nv = v;
-        step_inside(q, rect, p, &nu, &nv);
+        // Three steps of Newton's come as near as they can, as a rule. (Where the larger tangent's
+        // parameter is at its side already the other has to make up for it.)
+        if (n < 3 || !step_along(q, rect, p, &nu, &nv) || (nu == u && nv == v))
+            step_inside(q, rect, p, &nu, &nv);
         if (!(fabs(nu - u) + fabs(nv - v) > last)) // no step left, or no number
             break;
         Point next = eval(q, nu, nv);
@@ -162,8 +183,10 @@ bool qi_root_sharpen(QiTarget *q, BezierRect rect, double error_u, double error_
         if (on_ray(q, p, 0.0625))
             break;
     }
-    if (!on_ray(q, p, QI_ROOT_SLACKS))
+    if (!on_ray(q, p, QI_ROOT_SLACKS)) {
+        *at = (QiPoint){u, v, p.x * p.w, p.y * p.w, p.w};
         return false;
+    }
     double det = p.xu * p.yv - p.xv * p.yu;
     add_found(q, p, u, v, (BezierRect){u - error_u, u + error_u, v - error_v, v + error_v},
               det > 0.0 ? 1 : -1);

@@ -41,9 +41,16 @@ double qi_root_off(const QiTarget *target, double u, double v);
 // A root with its rounding, in slacks: what Newton may end on and still be on a root.
 #define QI_ROOT_SLACKS 4.0
 
-// Newton inside `rect`, which can hold one root only: true if it ends on it, and then it is added.
+// A point of the patch: x and y, of a rational patch times the weight w; else w is 1.
+typedef struct {
+    double u, v, x, y, w;
+} QiPoint;
+
+// Newton inside `rect`, which can hold one root only: true if it ends on it, and then it is added;
+// else *last is where it ended, which proves nothing: rounding may have kept it from a root.
 // error_u, error_v: how far off QI_ROOT_SLACKS can move the root.
-bool qi_root_sharpen(QiTarget *target, BezierRect rect, double error_u, double error_v);
+bool qi_root_sharpen(QiTarget *target, BezierRect rect, double error_u, double error_v,
+                     QiPoint *last);
 
 // A piece whose every point is within the tolerance of the ray: adds one hit, as near to the ray as
 // least squares bring it. False: no corner's depth is in range, nor the middle's.

@@ -9,8 +9,8 @@
 
 #include <cmocka.h>
 
-#include "base/arena.h"
 #include "base/array.h"
+#include "group_arena.h"
 #include "image/image.h"
 #include "pictures.h"
 #include "texture_rows.h"
@@ -20,20 +20,6 @@
 #include <string.h>
 
 enum { WIDTH = 23, HEIGHT = 17 };
-
-static Arena *arena;
-
-static int set_up(void **state) {
-    (void)state;
-    arena = arena_create();
-    return 0;
-}
-
-static int tear_down(void **state) {
-    (void)state;
-    arena_destroy(arena);
-    return 0;
-}
 
 // A picture with smooth parts and edges; its path.
 static const char *draw(const char *name, int channels, int bits, ImageWriteOptions options) {
@@ -301,5 +287,5 @@ int main(void) {
         cmocka_unit_test(layouts),   cmocka_unit_test(gamma_of_files),
         cmocka_unit_test(values),
     };
-    return cmocka_run_group_tests_name("image_map", tests, set_up, tear_down);
+    return cmocka_run_group_tests_name("image_map", tests, create_arena, destroy_arena);
 }

@@ -32,6 +32,21 @@ static QiFrame frame_of(const Bezier *s) {
     return frame;
 }
 
+static QiLocal local_over(const Bezier *s, BezierRect over) {
+    Bezier cut;
+    QiNet net;
+    QiFrame frame = frame_of(s);
+    QiLocal local;
+    bezier_restrict(s, over, &cut);
+    for (int n = 0; n < bezier_count(&cut); n++) {
+        net.x[n] = cut.p[n].x;
+        net.y[n] = cut.p[n].y;
+        net.z[n] = cut.p[n].z;
+    }
+    qi_local_init(&local, &frame, s->du, s->dv, &net, over);
+    return local;
+}
+
 // A part of [low, high], from all of it to a millionth.
 static void part_of(Rng *rng, double low, double high, double *from, double *to) {
     double width = (high - low) * pow(10.0, -6.0 * rng_unit(rng));
@@ -72,21 +87,12 @@ static void bounds_hold(void **state) {
     (void)state;
     for (uint64_t seed = 0; seed < 2000; seed++) {
         Rng rng = {seed};
-        Bezier s, cut;
+        Bezier s;
         sheet(&rng, 1 + (int)(rng_next(&rng) % 16), 1 + (int)(rng_next(&rng) % 16), &s);
         BezierRect over;
         part_of(&rng, 0.0, 1.0, &over.u0, &over.u1);
         part_of(&rng, 0.0, 1.0, &over.v0, &over.v1);
-        bezier_restrict(&s, over, &cut);
-        QiNet net;
-        for (int n = 0; n < bezier_count(&cut); n++) {
-            net.x[n] = cut.p[n].x;
-            net.y[n] = cut.p[n].y;
-            net.z[n] = cut.p[n].z;
-        }
-        QiFrame frame = frame_of(&s);
-        QiLocal local;
-        qi_local_init(&local, &frame, s.du, s.dv, &net, over);
+        QiLocal local = local_over(&s, over);
         for (int n = 0; n < 4; n++)
             check_part(&rng, &local, &s);
     }
@@ -98,15 +104,7 @@ static void rest_is_small(void **state) {
     Rng rng = {7};
     Bezier s;
     sheet(&rng, 12, 12, &s);
-    QiNet net;
-    for (int n = 0; n < bezier_count(&s); n++) {
-        net.x[n] = s.p[n].x;
-        net.y[n] = s.p[n].y;
-        net.z[n] = s.p[n].z;
-    }
-    QiFrame frame = frame_of(&s);
-    QiLocal local;
-    qi_local_init(&local, &frame, s.du, s.dv, &net, bezier_whole());
+    QiLocal local = local_over(&s, bezier_whole());
     double out[16], rest, wide;
     QiLocalPart part;
     qi_local_part(&local, (BezierRect){0.5, 0.5 + 0x1p-6, 0.25, 0.25 + 0x1p-6}, &part);

@@ -10,6 +10,7 @@
 
 #include "base/array.h"
 #include "digits.h"
+#include "group_arena.h"
 #include "noise/noise.h"
 #include "texture/pattern.h"
 #include "texture/pigment.h"
@@ -22,23 +23,13 @@ typedef struct {
 
 typedef ARRAY(Row) Rows;
 
-static Arena *arena;
-
 static const Scene empty = {.settings = {.noise_generator = 2, .number_of_waves = 10}};
 static const Textures no_textures = {.scene = &empty};
 static const TextureHit nowhere;
 
-static int setup(void **state) {
-    (void)state;
-    arena = arena_create();
+static int set_up(void **state) {
     noise_prepare();
-    return 0;
-}
-
-static int teardown(void **state) {
-    (void)state;
-    arena_destroy(arena);
-    return 0;
+    return create_arena(state);
 }
 
 static void check_rows(const Rows *rows) {
@@ -533,5 +524,5 @@ int main(void) {
         cmocka_unit_test(listed_patterns), cmocka_unit_test(uv_and_quick),
         cmocka_unit_test(opacity),         cmocka_unit_test(texture_places),
     };
-    return cmocka_run_group_tests_name("texture", tests, setup, teardown);
+    return cmocka_run_group_tests_name("texture", tests, set_up, destroy_arena);
 }

@@ -25,7 +25,7 @@ enum { MAX_NAMES = 18 };
 
 // The names to try, in order: an own standard extension is tried first, else last.
 static int candidate_names(Converter *cv, const char *name, FileKind kind, const char **out) {
-    const char *slash = strrchr(name, '/'), *dot = strrchr(slash ? slash : name, '.');
+    const char *dot = strrchr(file_name(name), '.');
     int count = 0;
     bool standard = false;
     for (int i = 0; dot && extensions[kind][i]; i++)
@@ -89,23 +89,24 @@ static const char *join(Converter *cv, const char *folder, const char *name) {
 }
 
 static const char *folder_of(Converter *cv, const char *path) {
-    const char *slash = strrchr(path, '/');
-    return slash ? arena_printf(cv->arena, "%.*s", (int)(slash - path), path) : "";
+    int length = (int)(file_name(path) - path);
+    return length ? arena_printf(cv->arena, "%.*s", length - 1, path) : "";
 }
 
 // The entry of the folder that equals name but for the case of its letters, or NULL. Only the last
 // part of the name may differ.
 static const char *find_other_case(Converter *cv, const char *folder, const char *name) {
     const char *path = join(cv, folder, name), *where = folder_of(cv, path);
-    const char *slash = strrchr(path, '/'), *base = slash ? slash + 1 : path;
+    const char *base = file_name(path);
+    bool in_folder = base > path;
     const char *found = NULL;
-    DIR *dir = opendir(*where ? where : slash ? "/" : ".");
+    DIR *dir = opendir(*where ? where : in_folder ? "/" : ".");
     if (!dir)
         return NULL;
     for (struct dirent *e; !found && (e = readdir(dir));) {
         if (strcasecmp(e->d_name, base) == 0) {
             const char *entry =
-                arena_printf(cv->arena, "%s%s%s", where, slash ? "/" : "", e->d_name);
+                arena_printf(cv->arena, "%s%s%s", where, in_folder ? "/" : "", e->d_name);
             found = is_file(entry) ? entry : NULL;
         }
     }

@@ -57,8 +57,7 @@ static void side_path(char out[64], const char *ending) {
 char *debug_of_povray(const char *path) {
     char out[64], command[2048];
     side_path(out, "povray");
-    const char *slash = strrchr(path, '/');
-    int folder = slash ? (int)(slash - path) : 0;
+    int folder = (int)(file_name(path) - path);
     snprintf(command, sizeof command,
              "root=$PWD && cd build/test && povray +I$root/%s +L$root/%.*s +W4 +H3 -D -F "
              ">/dev/null 2>$root/%s",

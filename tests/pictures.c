@@ -2,6 +2,7 @@
 #include "pictures.h"
 
 #include "base/arena.h"
+#include "base/file.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -9,7 +10,6 @@
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -69,11 +69,9 @@ static const char *render(const char *program, const char *name, const char *sce
     char directory[4400];
     snprintf(directory, sizeof directory, "%s%s%s", scene[0] == '/' ? "" : project,
              scene[0] == '/' ? "" : "/", scene);
-    char *slash = strrchr(directory, '/');
-    *slash = '\0';
-    const char *log;
-    int status = run_command(&log, "cd '%s' && %s '+I%s' '+O%s' %s", directory, program, slash + 1,
-                             out, switches);
+    const char *file = file_name(directory), *log;
+    int status = run_command(&log, "cd '%.*s' && %s '+I%s' '+O%s' %s", (int)(file - directory),
+                             directory, program, file, out, switches);
     if (status != 0)
         fail_msg("%s of %s ended with %d:\n%s", program, scene, status, log);
     return out;

@@ -148,8 +148,8 @@ static void write_output(const RenderOptions *o, const char *output, const Image
     if (!stats->layers)
         return;
     Arena *scratch = arena_create();
-    const char *path = output, *dot = strrchr(output, '.'), *slash = strrchr(output, '/');
-    size_t stem = dot && (!slash || dot > slash) ? (size_t)(dot - output) : strlen(output);
+    const char *path = output, *dot = strrchr(file_name(output), '.');
+    size_t stem = dot ? (size_t)(dot - output) : strlen(output);
     if (o->format != IMAGE_EXR)
         path = strcmp(output, "-") == 0 ? "aov.exr"
                                         : arena_printf(scratch, "%.*s.aov.exr", (int)stem, output);

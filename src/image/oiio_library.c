@@ -5,11 +5,11 @@
 #include "image/oiio.h"
 
 #include "base/diag.h"
+#include "base/file.h"
 
 #include <dlfcn.h>
 #include <limits.h>
 #include <pthread.h>
-#include <string.h>
 #include <unistd.h>
 
 static void *library; // stays to the end
@@ -21,11 +21,9 @@ static void load(void) {
     char program[PATH_MAX], path[PATH_MAX + 64];
     ssize_t length = readlink("/proc/self/exe", program, sizeof program - 1);
     program[length > 0 ? length : 0] = '\0';
-    char *slash = strrchr(program, '/');
-    if (slash)
-        slash[1] = '\0';
+    int folder = (int)(file_name(program) - program);
     for (size_t i = 0; i < sizeof places / sizeof *places && !library; i++) {
-        snprintf(path, sizeof path, "%s%slibqipov_image.so", program, places[i]);
+        snprintf(path, sizeof path, "%.*s%slibqipov_image.so", folder, program, places[i]);
         library = dlopen(path, RTLD_NOW | RTLD_LOCAL);
         if (!library && (i == 0 || access(path, F_OK) == 0))
             snprintf(problem, sizeof problem, "%s", dlerror());

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "model/file_path.h"
 
+#include "base/file.h"
+
 #include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
@@ -55,8 +57,7 @@ char *path_from_file(Arena *arena, const char *path, const char *file) {
 }
 
 char *path_beside_file(Arena *arena, const char *path, const char *file) {
-    const char *slash = strrchr(file, '/');
-    if (path[0] == '/' || !slash)
+    if (path[0] == '/')
         return arena_strdup(arena, path);
-    return arena_printf(arena, "%.*s%s", (int)(slash + 1 - file), file, path);
+    return arena_printf(arena, "%.*s%s", (int)(file_name(file) - file), file, path);
 }

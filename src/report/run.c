@@ -137,8 +137,7 @@ const char *run_find_qirender(Arena *arena) {
     if (length < 0)
         die("cannot find the folder of this program: %s", strerror(errno));
     own[length] = '\0';
-    char *slash = strrchr(own, '/');
-    const char *path = arena_printf(arena, "%.*s/qirender", (int)(slash - own), own);
+    const char *path = arena_printf(arena, "%sqirender", file_folder(arena, own));
     if (access(path, X_OK) != 0)
         die("cannot run '%s': %s", path, strerror(errno));
     return path;

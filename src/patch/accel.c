@@ -6,16 +6,31 @@
 #include "patch/piece.h"
 #include "patch/walk.h"
 
+// Does the surface, on the way from one to the other, leave the ray by more than the tolerance?
+static bool apart(const PatchRay *ray, const WalkSeen *a, const WalkSeen *b) {
+    enum { PARTS = 8 };
+    double reach = ray->patch->tolerance + 4.0 * ray->error;
+    for (int n = 1; n < PARTS; n++) {
+        double at = (double)n / PARTS;
+        Vec3 s[3];
+        piece_eval(ray->patch, a->u + at * (b->u - a->u), a->v + at * (b->v - a->v), s);
+        if (vec_length(vec_cross(vec_sub(s[0], ray->org), ray->dir)) > reach)
+            return true;
+    }
+    return false;
+}
+
 // The same crossing found from two pieces? Both are right within their errors. Where the surface
-// is singular (sign 0) only the place in space is well defined. Within a piece crossings were told
-// apart before (qi.h), and those of a narrow ribbon may be nearer to each other than the tolerance.
-static bool same_root(const WalkSeen *a, const WalkSeen *b) {
+// is singular (sign 0) only the place in space is well defined, and what lies between the two. (The
+// sheets of a folded ribbon may be nearer to each other than the tolerance.) Within a piece
+// crossings were told apart before (qi.h).
+static bool same_root(const PatchRay *ray, const WalkSeen *a, const WalkSeen *b) {
     bool alone = a->piece == b->piece;
     double reach = alone ? a->bound_t + b->bound_t : a->error_t + b->error_t;
     if (a->patch != b->patch || a->sign * b->sign < 0 || fabs(a->t - b->t) > reach)
         return false;
     if (a->sign == 0 || b->sign == 0)
-        return true;
+        return alone || !apart(ray, a, b);
     return fabs(a->u - b->u) <= a->error_u + b->error_u &&
            fabs(a->v - b->v) <= a->error_v + b->error_v;
 }
@@ -34,7 +49,7 @@ static bool was_seen(Walk *walk, const Root *root) {
                     .sign = root->sign};
     uint64_t count = walk->seen_count < WALK_SEEN ? walk->seen_count : WALK_SEEN;
     for (uint64_t i = 0; i < count; i++) {
-        if (same_root(&walk->seen[i], &now))
+        if (same_root(&walk->ray, &walk->seen[i], &now))
             return true;
     }
     walk->seen[walk->seen_count++ % WALK_SEEN] = now;

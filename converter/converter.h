@@ -197,10 +197,6 @@ typedef struct {
 
 const char *value_type_name(ValueType type);
 
-// The innermost visible value of that name, or NULL. The pointer is good until the next
-// declaration.
-Value *symbol_find(Converter *cv, const char *name);
-
 // If the next tokens name (or index an array to) a value of that type, consumes them and returns
 // it; else NULL and nothing is consumed. Subscripts belong to the identifier's token: they are
 // evaluated when it is read, and the element stands for the token.

@@ -17,7 +17,7 @@
 #include <math.h>
 #include <string.h>
 
-void promote(double e[5], int *width, int to) {
+static void promote(double e[5], int *width, int to) {
     if (*width >= to)
         return;
     for (int i = *width; i < to; i++)

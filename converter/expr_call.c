@@ -252,7 +252,7 @@ static double string_call(Converter *cv, const Token *name) {
     }
 }
 
-double days_since_2000(void) {
+static double days_since_2000(void) {
     struct timespec now;
     clock_gettime(CLOCK_REALTIME, &now);
     return ((double)(now.tv_sec - 946684800) + (double)now.tv_nsec * 1e-9) / 86400;

@@ -115,7 +115,7 @@ static void parse_plain_base(Converter *cv, float out[5], bool with_filter) {
         out[i] = (float)e[i];
 }
 
-void parse_color_components(Converter *cv, float out[5], bool with_filter) {
+static void parse_color_components(Converter *cv, float out[5], bool with_filter) {
     for (int i = 0; i < 5; i++)
         out[i] = 0;
     const Token *start = peek_token(cv);

@@ -174,7 +174,8 @@ static double pattern_value(const void *world, uint32_t pigment, Vec3 p) {
     return probe_pattern(probe, index, p);
 }
 
-FunctionPool function_pool(Converter *cv) {
+// What the functions of the scene being read are to the machine.
+static FunctionPool function_pool(Converter *cv) {
     static const FunctionHooks hooks = {pigment_value, pattern_value};
     noise_prepare();
     return (FunctionPool){.functions = cv->language->functions.items,

@@ -72,7 +72,5 @@ int function_compile(const FunctionReader *reader, const Expr *body, Function *o
 
 // The pigment or pattern number i of the functions declared so far.
 const struct PatternNode *function_pigment(const Converter *cv, uint32_t i);
-// What the functions of the scene being read are to the machine.
-FunctionPool function_pool(Converter *cv);
 
 #endif

@@ -81,8 +81,6 @@ void place_assign(Converter *cv, const Place *place, const Value *value, const L
 
 // ---- value.c ----------------------------------------------------------------------------------
 
-Array *parse_array(Converter *cv); // after the keyword `array`
-Array *array_clone(Converter *cv, const Array *array);
 int value_width(ValueType type); // 1..5, 0 if it is not numeric
 Value value_number(const double c[5], int width);
 
@@ -104,7 +102,6 @@ bool parse_rvalue(Converter *cv, RvalueUse use, Value *out, Reference *reference
 // into; returns how many the expression has. Components of e beyond that are left alone.
 int parse_add(Converter *cv, double e[5], int want);
 int parse_full(Converter *cv, double e[5], int want);
-void promote(double e[5], int *width, int to);
 
 bool is_comparison(int code);
 bool compare_floats(int code, double a, double b);
@@ -120,7 +117,6 @@ bool parse_call(Converter *cv, double e[5], int *width, int want);
 bool is_number_keyword(int code); // begins a float of its own or a float function
 bool is_vector_keyword(int code);
 double full_in_parentheses(Converter *cv, const char *where); // ( FULL )
-double days_since_2000(void);
 
 // expr_object.c: after the function's name.
 Vec3 trace_call(Converter *cv, const Token *name);
@@ -129,7 +125,6 @@ double inside_call(Converter *cv, const Token *name);
 
 // expr_color.c
 bool is_color_keyword(int code);
-void parse_color_components(Converter *cv, float out[5], bool with_filter);
 
 // string.c
 bool is_string_keyword(int code);

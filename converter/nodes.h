@@ -61,7 +61,6 @@ Transform parse_transform(Converter *cv);
 
 // In which kind of block a pattern stands.
 typedef enum { USE_PIGMENT, USE_NORMAL, USE_TEXTURE, USE_DENSITY } PatternUse;
-const char *use_name(PatternUse use);
 
 typedef struct WarpNode {
     const struct WarpNode *next; // the one written before
@@ -327,7 +326,6 @@ struct ObjectNode {
 
 // The next tokens as an object (statement or name), owned by the caller; NULL: there is none.
 ObjectNode *parse_object(Converter *cv);
-ObjectNode *object_create(Converter *cv, int keyword);
 ObjectNode *object_copy(Converter *cv, const ObjectNode *object);
 // part is held by parent in any way: dies if the tree becomes too deep or has too many objects.
 void object_put_below(Converter *cv, ObjectNode *parent, const ObjectNode *part);

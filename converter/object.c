@@ -63,7 +63,7 @@ static bool keyword_is_surface(int keyword) {
            keyword == KW_parametric;
 }
 
-ObjectNode *object_create(Converter *cv, int keyword) {
+static ObjectNode *object_create(Converter *cv, int keyword) {
     ObjectNode *object = ARENA_NEW(cv->arena, ObjectNode);
     ObjectType type;
     object->keyword = keyword;

@@ -69,7 +69,7 @@ const PatternInfo *pattern_find(int keyword) {
     return NULL;
 }
 
-const char *use_name(PatternUse use) {
+static const char *use_name(PatternUse use) {
     static const char *const names[] = {"pigment", "normal", "texture", "density"};
     return names[use];
 }

@@ -135,13 +135,6 @@ void symbol_remove(Converter *cv, Symbol *symbol) {
     symbol->removed = true;
 }
 
-Value *symbol_find(Converter *cv, const char *name) {
-    Symbol *symbol = name_symbol(cv, name_intern(cv, name, strlen(name)));
-    if (!symbol)
-        return NULL;
-    return symbol->target ? symbol->target : &symbol->value;
-}
-
 // One subscript in brackets, checked against the size of its dimension.
 static size_t read_subscript(Converter *cv, size_t size) {
     expect(cv, '[', "array subscript");

@@ -60,14 +60,16 @@ static Array *new_array(Converter *cv, const Array *shape, const Loc *loc) {
     return array;
 }
 
+static Array *clone_array(Converter *cv, const Array *array);
+
 static Value clone_value(Converter *cv, const Value *value) {
     Value copy = *value;
     if (copy.type == VALUE_ARRAY)
-        copy.node = array_clone(cv, copy.node);
+        copy.node = clone_array(cv, copy.node);
     return copy;
 }
 
-Array *array_clone(Converter *cv, const Array *array) {
+static Array *clone_array(Converter *cv, const Array *array) {
     enter_level(cv);
     Loc loc = token_loc(cv, cv->language->last);
     Array *copy = new_array(cv, array, &loc);
@@ -106,8 +108,8 @@ static void parse_initializer(Converter *cv, Array *array, int dimension, size_t
         optional_comma(cv);
 }
 
-// array[F]...[F] [ initializer ]
-Array *parse_array(Converter *cv) {
+// array[F]...[F] [ initializer ], after the keyword
+static Array *parse_array(Converter *cv) {
     Array shape = {.count = 1};
     bool held = hold_directives(cv);
     Loc loc = here(cv);

@@ -23,7 +23,7 @@ static const Interior *interior_or_air(const Scene *scene, uint32_t body) {
     return interior != NULL ? interior : &AIR;
 }
 
-float body_ior(const Scene *scene, uint32_t body) {
+static float body_ior(const Scene *scene, uint32_t body) {
     const Interior *interior = body_interior(scene, body);
     return interior != NULL ? interior->ior : 1.0f;
 }

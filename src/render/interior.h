@@ -17,7 +17,6 @@ typedef struct InteriorList {
 // has an air interior of its own, those of an instance (NO_INDEX: none) together. Bodies count on
 // after the scene's interiors.
 uint32_t body_of(const Scene *scene, uint32_t object, uint32_t instance);
-float body_ior(const Scene *scene, uint32_t body);
 // The interior's record, or NULL for an air interior.
 const Interior *body_interior(const Scene *scene, uint32_t body);
 

@@ -65,7 +65,7 @@ void reflect_layer(const Shading *shading, const Surface *surface, const Finish 
     }
 }
 
-Vec3 reflect_dir(Vec3 dir, Vec3 normal, Vec3 raw_normal) {
+static Vec3 reflect_dir(Vec3 dir, Vec3 normal, Vec3 raw_normal) {
     Vec3 out = vec_madd(dir, -2.0 * vec_dot(dir, normal), normal);
     // A perturbed normal can send the ray into the surface.
     double below = vec_dot(out, raw_normal);

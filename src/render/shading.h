@@ -227,7 +227,6 @@ double finish_metallic_fresnel(double cosine);
 // reflect.c
 void reflect_layer(const Shading *shading, const Surface *surface, const Finish *finish,
                    Vec3 normal, Rgb layer_color, LayerReflection *out);
-Vec3 reflect_dir(Vec3 dir, Vec3 normal, Vec3 raw_normal);
 Rgb reflect_trace(Tracer *tracer, const Surface *surface, const LayerReflection *reflection);
 
 // refract.c

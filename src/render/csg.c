@@ -13,15 +13,13 @@ static Box box_common(Box a, Box b) {
     return (Box){vec_max(a.low, b.low), vec_min(a.high, b.high)};
 }
 
-// Inside tests have a slack of SHAPE_EPSILON in units of the primitive, and points are rounded. A
-// millionth of the box's size and place is above both, and still costs no tests worth counting.
 static Box widened(Box box) {
     if (!(box.low.x <= box.high.x))
         return box;
     double size = fmax(vec_length(box.low), vec_length(box.high));
     if (!isfinite(size))
         return box;
-    double by = CSG_WIDER * size;
+    double by = SHAPE_WIDER * size;
     return (Box){vec_sub(box.low, vec3(by, by, by)), vec_add(box.high, vec3(by, by, by))};
 }
 

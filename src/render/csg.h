@@ -47,10 +47,6 @@ typedef struct {
     ShapeShared *shared;
 } Csg;
 
-// By what share of their size and distance boxes of nodes are widened: far above the rounding of
-// points and the slack of inside tests.
-#define CSG_WIDER 1e-6
-
 // Everything in arena. Dies when trees are nested too deeply.
 Csg csg_create(const Scene *scene, const PatchSetOptions *patches, Arena *arena);
 void csg_destroy(Csg *csg);          // what is not in the arena

@@ -82,7 +82,7 @@ bool csg_bounds_cut(const Scene *scene, const ObjectList *bounds, const Box *rea
     if (!(reach->low.x <= reach->high.x))
         return false;
     // The reach is wider than the surface by so much.
-    double slack = 2.0 * CSG_WIDER * fmax(vec_length(reach->low), vec_length(reach->high));
+    double slack = 2.0 * SHAPE_WIDER * fmax(vec_length(reach->low), vec_length(reach->high));
     if (!isfinite(slack))
         return bounds->count > 0;
     for (uint32_t i = 0; i < bounds->count; i++) {

@@ -15,7 +15,6 @@
 // by 1e-10 of their size at most: far less than boxes are widened.
 static const double LEAST_VOLUME = 1e-6;
 static const double NO_PART = 1e-9; // a factor this far below 0 is taken for 0
-static const double WIDER = 1e-6;
 
 typedef struct {
     Vec3 normal; // unit
@@ -104,7 +103,7 @@ bool shape_planes_box(const PlaneShape *planes, uint32_t count, Box *all, Box *f
         size = fmax(size, fabs(s.all.bound[side]));
     if (!isfinite(size))
         return false;
-    double by = WIDER * (1.0 + size);
+    double by = SHAPE_WIDER * (1.0 + size);
     *all = box_of(&s.all, by);
     for (int i = 0; i < n; i++) {
         Box face = box_of(&s.face[i], by);

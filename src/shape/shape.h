@@ -92,6 +92,9 @@ typedef double (*ShapeVisit)(void *context, const ShapeHit *hit);
 #define SHAPE_FARTHEST 1e7
 // POV-Ray's nearly zero: directions along a surface, and slack of inside tests.
 #define SHAPE_EPSILON 1e-10
+// Boxes are widened by this share of the numbers at hand: far above the rounding of points and the
+// slack of inside tests, and still it costs no tests worth counting.
+#define SHAPE_WIDER 1e-6
 
 // object: any type from OBJECT_PLANE on. What must be kept beside the object goes to arena; scene
 // and object must outlive the shape. What copies of an object have in common is looked up in, and

@@ -10,10 +10,6 @@ typedef struct {
     double low, high;
 } Range;
 
-// By what share of the numbers at hand a box is widened: far above the rounding of points and the
-// slack of inside tests, SHAPE_EPSILON.
-static const double WIDER = 1e-6;
-
 static Range box_range(const Box *box, int axis) {
     return (Range){vec_get(box->low, axis), vec_get(box->high, axis)};
 }
@@ -35,7 +31,7 @@ static Box plane_within(const PlaneShape *plane, Box around) {
                c = vec_get(plane->normal, (axis + 2) % 3);
         if (k == 0.0 || fmax(fabs(b), fabs(c)) > NEARLY * fabs(k))
             continue;
-        double at = plane->distance / k, by = WIDER * (1.0 + fabs(at));
+        double at = plane->distance / k, by = SHAPE_WIDER * (1.0 + fabs(at));
         Range half = k > 0.0 ? (Range){-INFINITY, at + by} : (Range){at - by, INFINITY};
         Range range[3] = {box_range(&around, 0), box_range(&around, 1), box_range(&around, 2)};
         range[axis] = common(range[axis], half);
@@ -116,7 +112,7 @@ static Box quadric_within(const QuadricShape *q, Box around) {
             Range found = solutions(vec_get(q->square, axis), vec_get(q->linear, axis), rest);
             if (isnan(found.low) || isnan(found.high))
                 return around;
-            double by = WIDER * fmax(finite_size(range, 3), finite_size(&found, 1));
+            double by = SHAPE_WIDER * fmax(finite_size(range, 3), finite_size(&found, 1));
             range[axis] = common(range[axis], (Range){found.low - by, found.high + by});
         }
     }

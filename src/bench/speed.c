@@ -103,33 +103,37 @@ static void print_rates(const char *name, const char *tolerance, const Entry *en
     printf("\n");
 }
 
-void speed_methods(const SpeedOptions *o) {
-    static const double tolerances[] = {1e-3, 1e-6, 1e-9, 1e-12};
-    static const PatchMethod methods[] = {METHOD_QI, METHOD_CLIPPING, METHOD_NEWTON,
-                                          METHOD_QI_PAPER};
-    Arena *arena = arena_create();
-    const Vec3 *points = teapot_points(arena);
-    Box box = points_bounds(points, (size_t)TEAPOT_PATCHES * 16);
-    ARRAY(Entry) entries = {0};
+typedef ARRAY(Entry) Entries;
+
+// Embree's single rays and packets, if it is there.
+static void add_embree(Entries *entries, Arena *arena, const Vec3 *points, double share) {
     const char *missing = embree_missing();
+    if (missing) {
+        printf("%s\n\n", missing);
+        return;
+    }
 #if EMBREE_HEADERS
     uint32_t cuts[TEAPOT_PATCHES];
     for (int i = 0; i < TEAPOT_PATCHES; i++)
         cuts[i] = CUTS;
-    EmbreeMesh *mesh = NULL;
-    if (!missing) {
-        mesh = teapot_mesh(arena, points, cuts);
-        array_push(
-            &entries,
-            ((Entry){"Embree, triangles 32x32 a patch", 0, trace_embree, mesh, o->share, {{0}}}));
-        array_push(
-            &entries,
-            ((Entry){"the same, packets of 16", 0, trace_embree_packets, mesh, o->share, {{0}}}));
-    }
+    EmbreeMesh *mesh = teapot_mesh(arena, points, cuts);
+    array_push(entries, ((Entry){.name = "Embree, triangles 32x32 a patch",
+                                 .trace = trace_embree,
+                                 .scene = mesh,
+                                 .share = share}));
+    array_push(entries, ((Entry){.name = "the same, packets of 16",
+                                 .trace = trace_embree_packets,
+                                 .scene = mesh,
+                                 .share = share}));
+#else
+    (void)entries, (void)arena, (void)points, (void)share;
 #endif
-    if (missing)
-        printf("%s\n\n", missing);
-    size_t peers = entries.count;
+}
+
+static void add_methods(Entries *entries, const Vec3 *points, const SpeedOptions *o) {
+    static const double tolerances[] = {1e-3, 1e-6, 1e-9, 1e-12};
+    static const PatchMethod methods[] = {METHOD_QI, METHOD_CLIPPING, METHOD_NEWTON,
+                                          METHOD_QI_PAPER};
     for (size_t m = 0; m < sizeof methods / sizeof methods[0]; m++) {
         for (int t = 0; t < 4; t++) {
             double tolerance = o->tolerance > 0.0 ? o->tolerance : tolerances[t];
@@ -139,52 +143,80 @@ void speed_methods(const SpeedOptions *o) {
             double share = o->share * (methods[m] == METHOD_QI_PAPER ? 1.0 / 64 : 1.0);
             const PatchSet *set =
                 committed(points, TEAPOT_PATCHES, methods[m], (PatchPrepare)o->prepare, tolerance);
-            const char *name = patch_method_name(methods[m]);
-            array_push(&entries, ((Entry){name, tolerance, trace_set, set, share, {{0}}}));
-            if (methods[m] == METHOD_QI)
-                array_push(
-                    &entries,
-                    ((Entry){
-                        "qi, packets of 16", tolerance, trace_set_packets, set, share, {{0}}}));
+            Entry entry = {.name = patch_method_name(methods[m]),
+                           .tolerance = tolerance,
+                           .trace = trace_set,
+                           .scene = set,
+                           .share = share};
+            array_push(entries, entry);
+            if (methods[m] == METHOD_QI) {
+                entry.name = "qi, packets of 16";
+                entry.trace = trace_set_packets;
+                array_push(entries, entry);
+            }
         }
     }
+}
+
+// The entries take turns, view by view.
+static void measure_all(Entries *entries, Arena *arena, const Vec3 *points, const SpeedOptions *o) {
+    Box box = points_bounds(points, (size_t)TEAPOT_PATCHES * 16);
     uint64_t views = o->view >= 0 ? 1 : VIEW_COUNT;
     Progress progress =
-        progress_begin("methods", views * (uint64_t)o->rounds * entries.count, true);
+        progress_begin("methods", views * (uint64_t)o->rounds * entries->count, true);
     for (int view = 0; view < VIEW_COUNT; view++) {
         if (o->view >= 0 && o->view != view)
             continue;
         const Ray *rays = view_rays(arena, (View)view, box);
         for (int round = 0; round < o->rounds; round++) {
-            for (size_t i = 0; i < entries.count; i++, progress_add(&progress, 1))
-                measure(&entries.items[i], (View)view, round, rays);
+            for (size_t i = 0; i < entries->count; i++, progress_add(&progress, 1))
+                measure(&entries->items[i], (View)view, round, rays);
         }
     }
     progress_end(&progress);
+}
+
+static void print_methods(const Entries *entries, const Entry *peers, const SpeedOptions *o) {
     printf("qi with the instructions %s.\n\n", patch_isa_name());
     printf("| nearest hits, million rays a second (share of Embree's single rays; qi's packets: of "
-           "its "
-           "packets) | tolerance |");
+           "its packets) | tolerance |");
     for (int view = 0; view < VIEW_COUNT; view++) {
         if (o->view < 0 || o->view == view)
             printf(" %s |", view_name((View)view));
     }
     printf("\n|---|---|%s\n", o->view < 0 ? "---|---|---|" : "---|");
-    for (size_t i = 0; i < entries.count; i++) {
-        const Entry *e = &entries.items[i];
+    for (size_t i = 0; i < entries->count; i++) {
+        const Entry *e = &entries->items[i];
         char tolerance[32] = "";
         if (e->tolerance > 0.0)
             snprintf(tolerance, sizeof tolerance, "%g", e->tolerance);
-        print_rates(e->name, tolerance, e, peers ? &entries.items[0] : NULL, o);
+        print_rates(e->name, tolerance, e, peers, o);
     }
-    for (size_t i = peers; i < entries.count; i++)
-        if (entries.items[i].trace == trace_set)
-            patchset_destroy((PatchSet *)entries.items[i].scene);
+}
+
+static void destroy_entries(Entries *entries) {
+    for (size_t i = 0; i < entries->count; i++) {
+        const Entry *e = &entries->items[i];
+        if (e->trace == trace_set)
+            patchset_destroy((PatchSet *)e->scene);
 #if EMBREE_HEADERS
-    if (mesh)
-        embree_mesh_release(mesh);
+        if (e->trace == trace_embree)
+            embree_mesh_release((EmbreeMesh *)e->scene);
 #endif
-    array_free(&entries);
+    }
+    array_free(entries);
+}
+
+void speed_methods(const SpeedOptions *o) {
+    Arena *arena = arena_create();
+    const Vec3 *points = teapot_points(arena);
+    Entries entries = {0};
+    add_embree(&entries, arena, points, o->share);
+    const bool has_peers = entries.count > 0;
+    add_methods(&entries, points, o);
+    measure_all(&entries, arena, points, o);
+    print_methods(&entries, has_peers ? entries.items : NULL, o);
+    destroy_entries(&entries);
     arena_destroy(arena);
 }
 

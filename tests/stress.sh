@@ -12,14 +12,9 @@ case " $* " in
 esac
 [ -n "$table" ] || exit $status
 {
-    echo
     tail -1 build/stress.txt | sed 's/$/:/'
     echo
     echo "$table"
-    echo
 } >build/stress.md
-awk '/^<!-- end of stress -->/ { skipping = 0 }
-    !skipping
-    /^<!-- stress -->/ { while ((getline line <"build/stress.md") > 0) print line; skipping = 1 }
-' README.md >build/README.md && cp build/README.md README.md
+tests/readme_table.sh stress build/stress.md
 exit $status

@@ -72,11 +72,14 @@ double world_unit(const World *world);
 
 // Nearest hit with near <= t < t_max that this kind of ray can see. Equal depths: the object that
 // stands first in the source, infinite ones before all others. Each primitive also has its own
-// least depth (facts: rendering 0.2).
+// least depth (facts: rendering 0.2). stats are added to; NULL: nobody counts.
 bool world_nearest(const World *world, const Ray *ray, WorldNear near, double t_max, RayKind kind,
                    RayStats *stats, WorldHit *hit);
-// The same, where the patches have been asked ahead: foreseen is that ray's (see foresee.c), or
-// NULL.
+// The same with one t_min for both.
+bool world_intersect(const World *world, const Ray *ray, double t_min, double t_max, RayKind kind,
+                     RayStats *stats, WorldHit *hit);
+// world_nearest, where the patches have been asked ahead: foreseen is that ray's (see foresee.c),
+// or NULL.
 bool world_nearest_foreseen(const World *world, const Ray *ray, WorldNear near, double t_max,
                             RayKind kind, const WorldForeseen *foreseen, RayStats *stats,
                             WorldHit *hit);
@@ -84,20 +87,18 @@ bool world_nearest_foreseen(const World *world, const Ray *ray, WorldNear near, 
 // of `across` rays, which is faster than one after the other. False: there is nothing to be gained.
 bool world_foresee(const World *world, const Ray *rays, size_t across, size_t down, WorldNear near,
                    RayKind kind, RayStats *stats, WorldForeseen *foreseen);
-// The same with one t_min for all.
-bool world_intersect(const World *world, const Ray *ray, double t_min, double t_max, RayKind kind,
-                     RayStats *stats, WorldHit *hit);
 // Is anything that throws a shadow between? Only right when all of that is opaque. last: what
 // blocked the ray before, WORLD_NO_BLOCKER at first: it is asked first, and kept up to date.
 #define WORLD_NO_BLOCKER UINT32_MAX
 bool world_blocked(const World *world, const Ray *ray, WorldNear near, double t_max, uint32_t *last,
                    RayStats *stats);
+// The same with one t_min for both, and no memory.
 bool world_occluded(const World *world, const Ray *ray, double t_min, double t_max,
                     RayStats *stats);
 // Is the point inside the object (a root or a leaf)? Patches, triangles have no inside.
 bool world_inside(const World *world, uint32_t object, Vec3 p);
-// Every object (leaf, not hollow... all) that contains p, in source order; up to max; returns the
-// count.
+// The first max of the leaves that contain p, hollow ones too, in the order of the source; returns
+// how many.
 typedef struct {
     uint32_t object, instance; // as in a hit
 } WorldPlace;

@@ -37,7 +37,7 @@ static void collect(void *context, const QiHit *hit) {
 // All hits, each checked against the promises of qi.h, and nearest and any against them.
 static void ask(const Method *m, const Bezier *s, const QiQuery *q, Answer *a) {
     a->count = 0;
-    QiStats stats = {0, 0, 0, 0};
+    QiStats stats = {0};
     int count = m->all(s, q, &stats, collect, a);
     a->steps = stats.steps;
     a->limited = stats.limited > 0;
@@ -557,7 +557,7 @@ static void degenerate_patches_answer_in_bounded_time(void **state) {
                 fail_msg("%s: degenerate case %d has no answer", METHODS[n].name, (int)k);
             assert_true(a.steps <= 4u * (uint64_t)qi_work_limit(&s));
             QiHit hit;
-            QiStats stats = {0, 0, 0, 0};
+            QiStats stats = {0};
             assert_true(METHODS[n].nearest(&s, &q, &stats, &hit));
             assert_true(stats.steps <= (n == REDUCE ? 200 : 4u * (uint64_t)qi_work_limit(&s)));
             // The paper's loop answers with sides of its last squares.
@@ -679,7 +679,7 @@ static void first_depth_along_a_segment(void **state) {
                 least = fmin(least, bezier_eval(&s, i / 200.0, j / 200.0).x);
         QiQuery q = qi_query_default(&s, (Ray){{-1, -2, 1}, {1, 2, -1}});
         QiHit hit;
-        QiStats stats = {0, 0, 0, 0};
+        QiStats stats = {0};
         assert_true(qi_reduce_nearest(&s, &q, &stats, &hit));
         assert_true(hit.t <= 1.0 + least + 1e-8);
         assert_true(hit.t >= 1.0 + least - 1e-3); // the grid is no finer

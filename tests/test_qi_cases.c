@@ -173,7 +173,7 @@ static void check(const Found *found) {
     PatchDef def = {.degree_u = 3, .degree_v = 3, .points = found->points};
     QiQuery q = qi_query_default(&s, found->ray);
     QiHit hit;
-    QiStats stats = {0, 0, 0, 0};
+    QiStats stats = {0};
     assert_true(qi_reduce_nearest(&s, &q, &stats, &hit));
     double off = ray_oracle_residual(&def, &found->ray, hit.t, hit.u, hit.v);
     if (!(off <= hit.bound && hit.bound <= q.tolerance + qi_rounding(&s, q.ray.org)))
@@ -303,7 +303,7 @@ static void flat_rays_at_poles(void **state) {
         Vec3 dir = vec3(cos(turn), sin(turn), -slope);
         QiQuery q = qi_query_default(&s, (Ray){vec_neg(dir), dir});
         QiHit hit;
-        QiStats stats = {0, 0, 0, 0};
+        QiStats stats = {0};
         assert_true(qi_reduce_nearest(&s, &q, &stats, &hit));
         assert_true(hit.t <= 1.0 + 1e-8);
         if (stats.steps > 100)
@@ -323,7 +323,7 @@ static void rays_beside_poles(void **state) {
         Vec3 dir = vec3(0.3 * sin(0.7 * k), 0.3 * cos(0.9 * k), -1.0);
         QiQuery q = qi_query_default(&s, (Ray){vec_madd(vec_neg(dir), off, side), dir});
         QiHit hit;
-        QiStats stats = {0, 0, 0, 0};
+        QiStats stats = {0};
         qi_reduce_nearest(&s, &q, &stats, &hit);
         if (stats.steps > 12)
             fail_msg("%d steps at %g, turned by %g", (int)stats.steps, off, turn);
@@ -347,7 +347,7 @@ static void tangent_rays(void **state) {
         Vec3 org = vec_sub(vec_madd(at, off, normal), dir);
         QiQuery q = qi_query_default(&s, (Ray){org, dir});
         QiHit hit;
-        QiStats stats = {0, 0, 0, 0};
+        QiStats stats = {0};
         qi_reduce_nearest(&s, &q, &stats, &hit);
         if (stats.steps > 80)
             fail_msg("ray %d: %d steps", k, (int)stats.steps);
@@ -382,7 +382,7 @@ static void leaving_a_ribbon(void **state) {
                   {-0.12751367231989705, -0.15091127230519671, 0.188878594410711}});
     q.t_min = 0.159063591556521;
     QiHit hit;
-    QiStats stats = {0, 0, 0, 0};
+    QiStats stats = {0};
     qi_reduce_nearest(&s, &q, &stats, &hit);
     if (stats.steps > 100)
         fail_msg("%d steps", (int)stats.steps);
@@ -675,7 +675,7 @@ static void ranges_near_the_surface(void **state) {
     bezier_init(&s, 3, 3, late_start.points);
     QiQuery q = qi_query_default(&s, late_start.ray);
     q.t_min = 0.039702519479758766;
-    QiStats stats = {0, 0, 0, 0}, all = stats;
+    QiStats stats = {0}, all = stats;
     qi_reduce_nearest(&s, &q, &stats, &hit);
     qi_reduce_all(&s, &q, &all, NULL, NULL);
     if (stats.steps + all.steps > MOST_STEPS)
@@ -685,7 +685,7 @@ static void ranges_near_the_surface(void **state) {
     bezier_init(&s, f->du, f->dv, f->points);
     q = qi_query_default(&s, f->ray);
     q.t_min = 1.5792037496330096e-09;
-    stats = (QiStats){0, 0, 0, 0};
+    stats = (QiStats){0};
     assert_true(qi_rational_nearest(&s, f->weights, &q, &stats, &hit));
     if (stats.steps > MOST_STEPS || !(fabs(hit.t - 0.0051312083615664) < 1e-12))
         fail_msg("%s: %d steps, t %.17g", f->before, (int)stats.steps, hit.t);
@@ -694,7 +694,7 @@ static void ranges_near_the_surface(void **state) {
     bezier_init(&s, f->du, f->dv, f->points);
     q = qi_query_default(&s, f->ray);
     q.t_min = 7.0601061348227676e-11;
-    stats = (QiStats){0, 0, 0, 0};
+    stats = (QiStats){0};
     qi_rational_nearest(&s, f->weights, &q, &stats, &hit);
     if (stats.steps > MOST_STEPS)
         fail_msg("%s: %d steps", f->before, (int)stats.steps);

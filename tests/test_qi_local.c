@@ -27,37 +27,27 @@ static void sheet(Rng *rng, int du, int dv, Bezier *s) {
 
 // The frame's rounding, of numbers up to 2.
 static QiFrame frame_of(const Bezier *s) {
-    QiFrame frame = {.exponent = 0};
+    QiFrame frame = {.exponent = 0, .axes = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
     frame.slack_x = frame.slack_y = frame.slack_z = (8.0 * (s->du + s->dv) + 52.0) * DBL_EPSILON;
     return frame;
 }
 
-static QiLocal local_over(const Bezier *s, BezierRect over) {
-    Bezier cut;
-    QiNet net;
-    QiFrame frame = frame_of(s);
-    QiLocal local;
-    bezier_restrict(s, over, &cut);
-    for (int n = 0; n < bezier_count(&cut); n++) {
-        net.x[n] = cut.p[n].x;
-        net.y[n] = cut.p[n].y;
-        net.z[n] = cut.p[n].z;
-    }
-    qi_local_init(&local, &frame, s->du, s->dv, &net, over);
-    return local;
-}
-
 // A part of [low, high], from all of it to a millionth.
-static void part_of(Rng *rng, double low, double high, double *from, double *to) {
+static void span_of(Rng *rng, double low, double high, double *from, double *to) {
     double width = (high - low) * pow(10.0, -6.0 * rng_unit(rng));
-    *from = low + rng_unit(rng) * (high - low - width);
+    *from = fmin(low + rng_unit(rng) * (high - low - width), high);
     *to = fmin(*from + width, high);
 }
 
-static void check_part(Rng *rng, const QiLocal *local, const Bezier *s) {
-    BezierRect r, over = local->over;
-    part_of(rng, over.u0, over.u1, &r.u0, &r.u1);
-    part_of(rng, over.v0, over.v1, &r.v0, &r.v1);
+static BezierRect part_of(Rng *rng, BezierRect r) {
+    BezierRect part;
+    span_of(rng, r.u0, r.u1, &part.u0, &part.u1);
+    span_of(rng, r.v0, r.v1, &part.v0, &part.v1);
+    return part;
+}
+
+// Points and slopes over a part.
+static void check_part(Rng *rng, QiLocal *local, const Bezier *s, BezierRect r) {
     QiLocalPart part;
     qi_local_part(local, r, &part);
     for (int k = 0; k < 3; k++) {
@@ -83,18 +73,45 @@ static void check_part(Rng *rng, const QiLocal *local, const Bezier *s) {
     }
 }
 
+// A target whose frame is that of the patch itself.
+static void target_of(const Bezier *s, QiTarget *target) {
+    target->du = s->du;
+    target->dv = s->dv;
+    target->rational = false;
+    target->frame = frame_of(s);
+    for (int n = 0; n < bezier_count(s); n++) {
+        target->whole.x[n] = s->p[n].x;
+        target->whole.y[n] = s->p[n].y;
+        target->whole.z[n] = s->p[n].z;
+    }
+}
+
+// Of parts, and of parts of them, which the same bicubic serves; with bounds made for the query,
+// and with those of a piece.
 static void bounds_hold(void **state) {
     (void)state;
     for (uint64_t seed = 0; seed < 2000; seed++) {
         Rng rng = {seed};
-        Bezier s;
-        sheet(&rng, 1 + (int)(rng_next(&rng) % 16), 1 + (int)(rng_next(&rng) % 16), &s);
-        BezierRect over;
-        part_of(&rng, 0.0, 1.0, &over.u0, &over.u1);
-        part_of(&rng, 0.0, 1.0, &over.v0, &over.v1);
-        QiLocal local = local_over(&s, over);
-        for (int n = 0; n < 4; n++)
-            check_part(&rng, &local, &s);
+        Bezier s, piece;
+        int du = 1 + (int)(rng_next(&rng) % 16), dv = 1 + (int)(rng_next(&rng) % 16);
+        sheet(&rng, du, dv, &s);
+        if (!qi_local_pays(du, dv))
+            continue;
+        BezierRect over = part_of(&rng, bezier_whole());
+        QiTarget target;
+        QiLocal local;
+        float most[3][5];
+        QiFourth fourth = {over, most};
+        target_of(&s, &target);
+        bezier_restrict(&s, over, &piece);
+        qi_local_fourth(&piece, target.frame.slack_x, most);
+        assert_true(qi_local_init(&local, &target, over, seed % 2 ? &fourth : NULL));
+        for (int n = 0; n < 4; n++) {
+            BezierRect part = part_of(&rng, over);
+            qi_local_forget(&local);
+            check_part(&rng, &local, &s, part);
+            check_part(&rng, &local, &s, part_of(&rng, part));
+        }
     }
 }
 
@@ -104,7 +121,10 @@ static void rest_is_small(void **state) {
     Rng rng = {7};
     Bezier s;
     sheet(&rng, 12, 12, &s);
-    QiLocal local = local_over(&s, bezier_whole());
+    QiTarget target;
+    QiLocal local;
+    target_of(&s, &target);
+    assert_true(qi_local_init(&local, &target, bezier_whole(), NULL));
     double out[16], rest, wide;
     QiLocalPart part;
     qi_local_part(&local, (BezierRect){0.5, 0.5 + 0x1p-6, 0.25, 0.25 + 0x1p-6}, &part);
@@ -115,10 +135,40 @@ static void rest_is_small(void **state) {
     assert_true(wide > 15.0 * rest && wide < 17.0 * rest);
 }
 
+// Rays tangent to pieces of a patch of high degree. Each step had a net of that degree once, then
+// each search had three of them before its first step: 110,000 instructions.
+static void nets_are_rare(void **state) {
+    (void)state;
+    Rng rng = {11};
+    QiStats stats = {0};
+    for (int n = 0; n < 200; n++) {
+        Bezier s, piece;
+        sheet(&rng, 13, 15, &s);
+        BezierRect over = {0.0, 0.03125, 0.0, 0.03125};
+        double shift = (double)(rng_next(&rng) % 32) / 32.0;
+        over.u0 += shift, over.u1 += shift;
+        over.v0 += 1.0 - 0.03125 - shift, over.v1 += 1.0 - 0.03125 - shift;
+        bezier_restrict(&s, over, &piece);
+        float most[3][5];
+        QiFourth fourth = {over, most};
+        qi_local_fourth(&piece, 1e-14, most);
+        Vec3 su, sv, at = bezier_eval1(&piece, rng_unit(&rng), rng_unit(&rng), &su, &sv);
+        Vec3 dir = vec_madd(vec_normalize(su), 4.0 * rng_unit(&rng) - 2.0, vec_normalize(sv));
+        QiQuery q = qi_query_default(&s, (Ray){vec_madd(at, -3.0, dir), dir});
+        q.rect = over;
+        q.fourth = &fourth;
+        qi_reduce_nearest(&s, &q, &stats, &(QiHit){0});
+    }
+    if (stats.full * 8 > stats.steps)
+        fail_msg("%d nets of the patch's own degree in %d steps", (int)stats.full,
+                 (int)stats.steps);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(bounds_hold),
         cmocka_unit_test(rest_is_small),
+        cmocka_unit_test(nets_are_rare),
     };
     return cmocka_run_group_tests_name("qi_local", tests, NULL, NULL);
 }

@@ -129,7 +129,7 @@ static void take_qi(void *context, const QiHit *hit) {
     f->go_on = walk_take(f->walk, &root);
 }
 
-static bool search_qi(Walk *walk, BezierRect rect) {
+static bool search_qi(Walk *walk, const Piece *piece, BezierRect rect) {
     const PatchRay *ray = &walk->ray;
     Query *query = walk->query;
     const PatchDef *def = ray->patch->def;
@@ -138,7 +138,12 @@ static bool search_qi(Walk *walk, BezierRect rect) {
     // The whole range, whatever has been found in other pieces, and a little more: should it end on
     // a pole the search would go down to the last bit.
     double t_max = walk->t_limit + 16.0 * ray->patch->tolerance * ray->t_per_s;
-    QiQuery ask = {query->ray, query->t_min, t_max, ray->patch->tolerance, rect};
+    QiQuery ask = {query->ray, query->t_min, t_max, ray->patch->tolerance, rect, NULL};
+    QiFourth fourth = {piece_rect(piece), NULL};
+    if (walk->accel->fourth) {
+        fourth.most = walk->accel->fourth[piece - walk->accel->pieces].most;
+        ask.fourth = &fourth;
+    }
     QiStats stats = {0};
     QiHit hit;
     Fallback f = {walk, true};
@@ -233,7 +238,7 @@ static bool search_rect(Walk *walk, const Piece *piece, BezierRect rect) {
     rect = parts[0].rect;
     for (int i = 1; i < count; i++)
         rect = rect_union(rect, parts[i].rect);
-    return search_qi(walk, rect);
+    return search_qi(walk, piece, rect);
 }
 
 #endif

@@ -47,7 +47,7 @@ static void search_patch(Walk *walk, uint32_t number) {
     walk->id = def->id;
     Bezier patch;
     bezier_init(&patch, (int)def->degree_u, (int)def->degree_v, def->points);
-    QiQuery ask = {query->ray, query->t_min, query->t_max, def->tolerance, bezier_whole()};
+    QiQuery ask = {query->ray, query->t_min, query->t_max, def->tolerance, bezier_whole(), NULL};
     QiStats stats = {0};
     QiHit hit;
     if (query->kind == QUERY_ALL)

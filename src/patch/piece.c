@@ -4,6 +4,7 @@
 
 #include "base/array.h"
 #include "patch/bernstein.h"
+#include "patch/qi_local.h"
 #include "patch/quasi.h"
 
 #include <assert.h>
@@ -443,6 +444,8 @@ static void make_block(const Accel *accel, const Cut *cuts, const Box *boxes, ui
         piece_part(&whole, cut->rect, &part);
         frame_measure(&part, error, &frame);
         complete(&part, error, cut->rect, patch->def->mask, cut->patch, piece);
+        if (qi_local_pays(part.du, part.dv))
+            qi_local_fourth(&part, error, accel->fourth[block->first + i].most);
         frame_to_lane(&frame, &part, tree, patch->center, reach, block, (int)i, piece);
     }
 }
@@ -493,6 +496,10 @@ void pieces_build(Arena *arena, const PatchDef *defs, size_t count, PatchPrepare
 
     accel->piece_count = all.cuts.count;
     accel->pieces = ARENA_ARRAY(arena, Piece, accel->piece_count);
+    bool high = false;
+    for (size_t i = 0; i < count; i++)
+        high |= qi_local_pays((int)defs[i].degree_u, (int)defs[i].degree_v);
+    accel->fourth = high ? ARENA_ARRAY(arena, PieceFourth, accel->piece_count) : NULL;
     accel->blocks = ARENA_ARRAY(arena, Block, accel->tree.leaf_count);
 #pragma omp parallel for schedule(dynamic, 64)
     for (uint32_t leaf = 0; leaf < accel->tree.leaf_count; leaf++)

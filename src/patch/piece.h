@@ -101,11 +101,17 @@ typedef struct {
 } Block;
 _Static_assert(sizeof(Block) == 512, "eight lines of cache");
 
+// Of a piece of a patch of high degree: see qi_local.h.
+typedef struct {
+    float most[3][5];
+} PieceFourth;
+
 typedef struct Accel {
     const PatchDef *defs;
     AccelPatch *patches;
     Piece *pieces;
-    Block *blocks; // one per leaf of the tree
+    PieceFourth *fourth; // of each piece; NULL: no patch has such a degree
+    Block *blocks;       // one per leaf of the tree
     Tree tree;
     size_t patch_count, piece_count;
 } Accel;

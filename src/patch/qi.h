@@ -41,11 +41,18 @@ typedef struct {
     double bound;   // scene units
 } QiHit;
 
+// Bounds of the fourth derivatives over a part of a patch; see qi_local.h.
 typedef struct {
-    Ray ray;             // dir of any length; t counts in it
-    double t_min, t_max; // t_min <= t < t_max; t_max may be INFINITY
-    double tolerance;    // scene units, >= 0
-    BezierRect rect;     // where to look
+    BezierRect over;
+    const float (*most)[5]; // by coordinate, scene units
+} QiFourth;
+
+typedef struct {
+    Ray ray;                // dir of any length; t counts in it
+    double t_min, t_max;    // t_min <= t < t_max; t_max may be INFINITY
+    double tolerance;       // scene units, >= 0
+    BezierRect rect;        // where to look
+    const QiFourth *fourth; // over what holds rect; NULL: not known. For polynomial patches
 } QiQuery;
 
 // The whole patch, t from 0 to infinity, tolerance 1e-9 of its diameter.
@@ -57,6 +64,7 @@ typedef struct {
     uint64_t newton;  // Newton steps
     uint64_t hits;    // hits reported
     uint64_t limited; // queries that reached the work limit
+    uint64_t full; // qi_reduce_*, not bicubic: nets of the patch's own bi-degree, the dearer ones
 } QiStats;
 
 typedef void (*QiSink)(void *context, const QiHit *hit);

@@ -51,7 +51,7 @@ double qi_rounding(const Bezier *patch, Vec3 org) {
 int qi_work_limit(const Bezier *patch) { return 2048 + 128 * patch->du * patch->dv; }
 
 QiQuery qi_query_default(const Bezier *patch, Ray ray) {
-    return (QiQuery){ray, 0.0, INFINITY, 1e-9 * bezier_diameter(patch), bezier_whole()};
+    return (QiQuery){ray, 0.0, INFINITY, 1e-9 * bezier_diameter(patch), bezier_whole(), NULL};
 }
 
 static bool query_is_sound(const QiQuery *q) {
@@ -161,6 +161,9 @@ bool qi_frame_init(QiFrame *f, QiFrameKind kind, const Bezier *patch, const QiQu
     Vec3 far = move_points(f->exponent, patch, query->ray.org, out);
     Axes axes =
         kind == FRAME_ACROSS ? axes_across(dir, &f->length) : axes_skew(dir, far, &f->length);
+    f->axes[0] = axes.x;
+    f->axes[1] = axes.y;
+    f->axes[2] = axes.z;
     turn_points(f, &axes, kind == FRAME_SKEW_RATIONAL ? 2.0 : 1.0, out);
     // An error of z moves the ray's point by |dir| / length as much.
     f->stretch = vec_length(dir) / f->length;

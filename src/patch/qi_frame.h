@@ -23,6 +23,7 @@ typedef struct {
     int exponent;                     // frame units = scene units * 2^exponent
     int t_exponent;                   // t = z / length * 2^t_exponent
     double length;                    // of dir along z, scaled; > 0
+    Vec3 axes[3];                     // a coordinate is axis . point, scaled
     double stretch;                   // length in space of a step of 1 in z along the ray
     double side_x, side_y;            // largest |x| and |y| of a control point
     double slack_x, slack_y, slack_z; // rounding of any point or net point derived

@@ -2,6 +2,8 @@
 // With (s, t) in [-1,1]^2 over the part, c its middle and h its half sizes, Taylor says
 //     S = sum over i + j <= 3 of T_ij s^i t^j + R,    T_ij = hu^i hv^j S_(i,j)(c) / (i! j!),
 //     |R| <= sum over i + j = 4 of hu^i hv^j max |S_(i,j)| / (i! j!).
+// T_ij comes from the patch's whole net, so nothing has to be made for the part but weights; the
+// largest fourth derivatives over all of the patch would be far too large.
 // R's derivative along s is the same sum with each term times i, that along t times j: 4 times the
 // bound in all, and twice that along parameters that run from 0 to 1.
 //
@@ -10,14 +12,9 @@
 // its own evaluation; over all T_ij that is e times the first terms of exp(2 du hu + 2 dv hv).
 #include "patch/qi_local.h"
 
-#include <float.h>
-#include <string.h>
-
-enum { LINE = BEZIER_MAX_DEGREE + 1 };
+#include "patch/qi_bound.h"
 
 bool qi_local_pays(int du, int dv) { return (du + 1) * (dv + 1) >= 64; }
-
-static double larger(double a, double b) { return a > b ? a : b; }
 
 // d (d-1) ... of so many factors; 0 when there are fewer.
 static double falling(int d, int factors) {
@@ -57,25 +54,72 @@ static void fourth_differences(const double *net, int du, int dv, double most[5]
     }
 }
 
-void qi_local_init(QiLocal *local, const QiFrame *frame, int du, int dv, const QiNet *net,
-                   BezierRect over) {
-    local->du = du;
-    local->dv = dv;
-    local->over = over;
-    size_t size = (size_t)((du + 1) * (dv + 1)) * sizeof(double);
-    memcpy(local->net.x, net->x, size);
-    memcpy(local->net.y, net->y, size);
-    memcpy(local->net.z, net->z, size);
+void qi_local_fourth(const Bezier *part, double error, float most[3][5]) {
+    double net[BEZIER_MAX_POINTS], fourth[5];
+    for (int k = 0; k < 3; k++) {
+        for (int n = 0; n < bezier_count(part); n++)
+            net[n] = vec_get(part->p[n], k);
+        fourth_differences(net, part->du, part->dv, fourth);
+        for (int i = 0; i <= 4; i++) {
+            // 16 points' rounding, and as much of the differences.
+            double bound =
+                falling(part->du, i) * falling(part->dv, 4 - i) * (fourth[i] + 32.0 * error);
+            bound = bound * (1.0 + 0x1p-20) + (double)FLT_MIN;
+            most[k][i] = bound < (double)FLT_MAX ? (float)bound : INFINITY;
+        }
+    }
+}
+
+// Of the frame's coordinates, which are linear functions of space.
+static bool known_fourth(QiLocal *local, const QiFrame *frame, const QiFourth *known) {
+    local->over = known->over;
+    for (int k = 0; k < 3; k++) {
+        const Vec3 axis = frame->axes[k];
+        for (int i = 0; i <= 4; i++) {
+            double bound = fabs(axis.x) * (double)known->most[0][i] +
+                           fabs(axis.y) * (double)known->most[1][i] +
+                           fabs(axis.z) * (double)known->most[2][i];
+            local->fourth[k][i] = ldexp(bound * (1.0 + 0x1p-40), frame->exponent);
+            if (!isfinite(local->fourth[k][i]))
+                return false;
+        }
+    }
+    return true;
+}
+
+static void own_fourth(QiLocal *local, BezierRect rect) {
+    int du = local->du, dv = local->dv;
+    const double *nets[3] = {local->net->x, local->net->y, local->net->z};
+    Bezier part = {.du = du, .dv = dv};
+    local->over = rect;
+    for (int n = 0; n < bezier_count(&part); n++)
+        part.p[n] = vec3(nets[0][n], nets[1][n], nets[2][n]);
+    bezier_restrict(&part, rect, &part);
+    for (int k = 0; k < 3; k++) {
+        float most[3][5];
+        qi_local_fourth(&part, local->slack[k], most);
+        for (int i = 0; i <= 4; i++)
+            local->fourth[k][i] = (double)most[k][i];
+    }
+}
+
+bool qi_local_init(QiLocal *local, const QiTarget *target, BezierRect rect,
+                   const QiFourth *fourth) {
+    if (target->rational || !qi_local_pays(target->du, target->dv) ||
+        !(rect.u0 < rect.u1 && rect.v0 < rect.v1))
+        return false;
+    const QiFrame *frame = &target->frame;
+    local->made = false;
+    local->du = target->du;
+    local->dv = target->dv;
+    local->net = &target->whole;
     local->slack[0] = frame->slack_x;
     local->slack[1] = frame->slack_y;
     local->slack[2] = frame->slack_z;
-    const double *nets[3] = {net->x, net->y, net->z};
-    for (int k = 0; k < 3; k++) {
-        double *fourth = local->fourth[k];
-        fourth_differences(nets[k], du, dv, fourth);
-        for (int i = 0; i <= 4; i++) // 16 points' rounding, and as much of the differences
-            fourth[i] = falling(du, i) * falling(dv, 4 - i) * (fourth[i] + 32.0 * local->slack[k]);
-    }
+    if (fourth)
+        return known_fourth(local, frame, fourth);
+    own_fourth(local, rect);
+    return true;
 }
 
 // Of the Bernstein polynomials of degree d at c: h^i / i! times their i-th derivatives, as
@@ -109,20 +153,13 @@ static void taylor_weights(int d, double c, double h, double *weights) {
             weights[4 * i + order] = 0.0;
 }
 
-void qi_local_part(const QiLocal *q, BezierRect rect, QiLocalPart *part) {
-    double width = q->over.u1 - q->over.u0, height = q->over.v1 - q->over.v0;
-    part->hu = 0.5 * (rect.u1 - rect.u0) / width;
-    part->hv = 0.5 * (rect.v1 - rect.v0) / height;
-    taylor_weights(q->du, (rect.u0 - q->over.u0) / width + part->hu, part->hu, part->u);
-    taylor_weights(q->dv, (rect.v0 - q->over.v0) / height + part->hv, part->hv, part->v);
-}
-
-void qi_local_cut(const QiLocal *q, const QiLocalPart *part, int coordinate, double out[16],
-                  double *rest) {
+// A coordinate of the bicubic over `from`.
+static void make_cubic(const QiLocal *q, int coordinate, double out[16], double *rest) {
     int du = q->du, dv = q->dv;
-    const double *p = coordinate == 0 ? q->net.x : coordinate == 1 ? q->net.y : q->net.z;
-    const double *wu = part->u, *wv = part->v;
-    double hu = part->hu, hv = part->hv, t[4][4] = {{0.0}};
+    const double *p = coordinate == 0 ? q->net->x : coordinate == 1 ? q->net->y : q->net->z;
+    const double *wu = q->u, *wv = q->v;
+    double hu = 0.5 * (q->from.u1 - q->from.u0), hv = 0.5 * (q->from.v1 - q->from.v0);
+    double t[4][4] = {{0.0}};
     for (int i = 0; i <= du; i++, p += dv + 1) {
         double row[4] = {0.0};
         for (int j = 0; j <= dv; j++)
@@ -149,9 +186,48 @@ void qi_local_cut(const QiLocal *q, const QiLocalPart *part, int coordinate, dou
     }
 
     const double *f = q->fourth[coordinate];
-    double u2 = hu * hu, v2 = hv * hv, y = 2.0 * (du * hu + dv * hv);
-    double taylor = (f[4] * u2 * u2 + f[0] * v2 * v2) / 24.0 +
-                    (f[3] * u2 + f[1] * v2) * hu * hv / 6.0 + f[2] * u2 * v2 / 4.0;
+    double a = hu / (q->over.u1 - q->over.u0), b = hv / (q->over.v1 - q->over.v0);
+    double a2 = a * a, b2 = b * b, y = 2.0 * (du * hu + dv * hv);
+    double taylor = (f[4] * a2 * a2 + f[0] * b2 * b2) / 24.0 +
+                    (f[3] * a2 + f[1] * b2) * a * b / 6.0 + f[2] * a2 * b2 / 4.0;
     double rounding = 4.0 * q->slack[coordinate] * (1.0 + y * (1.0 + y * (0.5 + y / 6.0)));
     *rest = taylor * (1.0 + 0x1p-40) + rounding;
+}
+
+static bool holds(BezierRect a, BezierRect b) {
+    return a.u0 <= b.u0 && a.u1 >= b.u1 && a.v0 <= b.v0 && a.v1 >= b.v1;
+}
+
+void qi_local_part(QiLocal *q, BezierRect rect, QiLocalPart *part) {
+    BezierRect from = q->from;
+    if (!q->made || !holds(from, rect)) {
+        double hu = 0.5 * (rect.u1 - rect.u0), hv = 0.5 * (rect.v1 - rect.v0);
+        taylor_weights(q->du, rect.u0 + hu, hu, q->u);
+        taylor_weights(q->dv, rect.v0 + hv, hv, q->v);
+        q->from = from = rect;
+        q->made = true;
+        q->has[0] = q->has[1] = q->has[2] = false;
+    }
+    part->whole = holds(rect, from);
+    if (part->whole)
+        return;
+    double width = from.u1 - from.u0, height = from.v1 - from.v0;
+    restriction(part->u, 4, 1, 3, (rect.u0 - from.u0) / width, (rect.u1 - from.u0) / width);
+    restriction(part->v, 1, 4, 3, (rect.v0 - from.v0) / height, (rect.v1 - from.v0) / height);
+}
+
+void qi_local_forget(QiLocal *local) { local->made = false; }
+
+void qi_local_cut(QiLocal *q, const QiLocalPart *part, int k, double out[16], double *rest) {
+    if (!q->has[k]) {
+        make_cubic(q, k, q->cubic[k], &q->rest[k]);
+        q->has[k] = true;
+    }
+    *rest = q->rest[k];
+    if (part->whole) {
+        memcpy(out, q->cubic[k], sizeof q->cubic[k]);
+        return;
+    }
+    restrict_axis(q->cubic[k], part->u, part->v, 3, 3, out);
+    *rest += 2.0 * q->slack[k]; // so that 8 hold the rounding of slopes, 12 slacks, as well
 }

@@ -54,9 +54,9 @@ static const double LIKELY_SLOPE = 0.75;
 typedef struct {
     QiTarget target;
     unsigned poles, collapsed; // qi_poles(), qi_collapsed()
-    uint64_t steps, work_limit;
+    uint64_t steps, full, work_limit;
     bool has_local;
-    QiLocal local; // of where to look
+    QiLocal local;
 } Search;
 
 // The part of [low,high] that a local span leaves, rounded outwards by some ulps of 1.
@@ -570,6 +570,7 @@ static inline Step step_of(Search *q, BezierRect rect, int du, int dv, Rest *res
 // The bicubic case gets its own copy, with loops of known length.
 static Step step_bicubic(Search *q, BezierRect r, Rest *rest) { return step_of(q, r, 3, 3, rest); }
 static Step step_full(Search *q, BezierRect r, Rest *rest) {
+    q->full++;
     return step_of(q, r, q->target.du, q->target.dv, rest);
 }
 
@@ -600,16 +601,20 @@ static Step step_local(Search *q, BezierRect rect, Rest *rest) {
             return step;
     }
     rest->rect = p.left;
-    if (shrank(&p))
-        return STEP_AGAIN;
-    if (is_least(p.left, true) && is_least(p.left, false))
-        return STEP_HERE;
-    // The true net would not do better where the remainders are far larger than the rest.
+    // The part's own bicubic, or in the end the true net, would do better where the rest makes up a
+    // third or half of the remainders; they cost as much as five steps, and as twenty.
+    bool blurred = false;
     for (int k = 0; k < 2; k++) {
         const Span *span = &p.bounds[k].span;
-        if (!(span->high - span->low > 16.0 * form_slack(p.forms[k], &frame)))
-            return STEP_HERE;
+        double times = part.whole ? 4.0 : 6.0;
+        blurred |= !(span->high - span->low > times * form_slack(p.forms[k], &frame));
     }
+    if (blurred && !part.whole)
+        qi_local_forget(&q->local);
+    if (shrank(&p) || (blurred && !part.whole))
+        return STEP_AGAIN;
+    if (blurred || (is_least(p.left, true) && is_least(p.left, false)))
+        return STEP_HERE;
     halve_left(target, 3, 3, &p, rest);
     return STEP_BOTH;
 }
@@ -622,22 +627,6 @@ static Step step_any(Search *q, BezierRect r, Rest *rest) {
         r = rest->rect;
     }
     return step_full(q, r, rest);
-}
-
-// The net of where to look, for patches of high degree.
-static bool make_local(const QiTarget *target, BezierRect r, QiLocal *local) {
-    int du = target->du, dv = target->dv;
-    if (target->rational || !qi_local_pays(du, dv) || !(r.u0 < r.u1 && r.v0 < r.v1))
-        return false;
-    double wu[LINE * LINE], wv[LINE * LINE];
-    QiNet net;
-    restriction(wu, du + 1, 1, du, r.u0, r.u1);
-    restriction(wv, 1, dv + 1, dv, r.v0, r.v1);
-    restrict_axis(target->whole.x, wu, wv, du, dv, net.x);
-    restrict_axis(target->whole.y, wu, wv, du, dv, net.y);
-    restrict_axis(target->whole.z, wu, wv, du, dv, net.z);
-    qi_local_init(local, &target->frame, du, dv, &net, r);
-    return true;
 }
 
 static double middle_off(const Search *q, BezierRect r) {
@@ -679,12 +668,13 @@ static int intersect(const Bezier *patch, const double *weights, const QiQuery *
         return 0;
     q.poles = qi_poles(&q.target);
     q.collapsed = qi_collapsed(&q.target);
-    q.has_local = make_local(&q.target, query->rect, &q.local);
-    q.steps = 0;
+    q.has_local = qi_local_init(&q.local, &q.target, query->rect, query->fourth);
+    q.steps = q.full = 0;
     q.work_limit = (uint64_t)qi_work_limit(patch);
     search(&q, query->rect);
     if (stats) {
         stats->steps += q.steps;
+        stats->full += q.full;
         stats->newton += q.target.newton;
         stats->limited += q.steps > q.work_limit;
     }

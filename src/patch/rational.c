@@ -158,7 +158,7 @@ static void search(RefineWalk *walk, const SubPatch *sub) {
     const PatchDef *def = walk->ray.patch->def;
     Search s = {.walk = walk};
     bezier_init(&s.patch, (int)def->degree_u, (int)def->degree_v, def->points);
-    QiQuery ask = {query->ray, query->t_min, query->t_max, def->tolerance, sub->rect};
+    QiQuery ask = {query->ray, query->t_min, query->t_max, def->tolerance, sub->rect, NULL};
     QiStats stats = {0};
     QiHit hit;
     if (query->kind == QUERY_ALL)

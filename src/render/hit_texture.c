@@ -24,6 +24,33 @@ void hit_find_textures(const Scene *scene, WorldHit *hit, double normal_dot_dir)
     }
 }
 
+// Textures of parts, and those in a map, are taken to be.
+static bool texture_is_lit(const Scene *scene, uint32_t index) {
+    if (index == NO_INDEX)
+        return false;
+    const Texture *texture = &scene->textures[index];
+    for (uint32_t i = 0; i < texture->layer_count; i++)
+        if (finish_is_lit(&texture->layers[i].finish))
+            return true;
+    return texture->layer_count == 0;
+}
+
+bool surface_is_lit(const Scene *scene, const Object *object) {
+    bool parts = object->type == OBJECT_MESH || object->type == OBJECT_BLOB || object->cutaway;
+    return parts || texture_is_lit(scene, object->texture) ||
+           texture_is_lit(scene, object->interior_texture);
+}
+
+bool surface_mirrors(const Scene *scene, const Object *object) {
+    if (object->texture == NO_INDEX)
+        return false;
+    const Texture *texture = &scene->textures[object->texture];
+    for (uint32_t i = 0; i < texture->layer_count; i++)
+        if (texture->layers[i].normal == NO_INDEX && finish_reflects(&texture->layers[i].finish))
+            return true;
+    return false;
+}
+
 bool surface_is_opaque(const Textures *textures, const Object *object) {
     bool opaque = texture_is_opaque(textures, object->texture) &&
                   (object->interior_texture == NO_INDEX ||

@@ -5,8 +5,12 @@
 
 #include <math.h>
 
-void lights_reset(Tracer *tracer) {
+void lights_reset(Tracer *tracer, const WorldHit *hit) {
     uint32_t count = tracer->shading->scene->light_count;
+    tracer->lights = ahead_lights(tracer, hit);
+    if (tracer->lights)
+        return;
+    tracer->lights = tracer->own_lights;
     for (uint32_t i = 0; i < count; i++)
         tracer->lights[i].ready = tracer->lights[i].shadow_done = false;
 }
@@ -81,6 +85,7 @@ void light_sample(const Shading *shading, uint32_t index, Vec3 p, Vec3 offset, L
     const LightAxis *axis = &shading->axes[index];
     s->ready = true;
     s->shadow_done = false;
+    s->foreseen = NULL;
     if (!aim(light, axis, p, vec_add(light->location, offset), s)) {
         // The surface goes through the light: no light arrives.
         *s = (LightSample){.ready = true};
@@ -120,16 +125,19 @@ void light_shine(Tracer *tracer, const LitLayer *layer, bool shadowless, const L
     *color = rgb_add(*color, sum);
 }
 
+bool light_has_shadow(const Shading *shading, uint32_t index) {
+    const Light *light = &shading->scene->lights[index];
+    return shading->quality.shadows && (!light->shadowless || light->has_projection);
+}
+
 static void find_shadow(Tracer *tracer, const Surface *surface, uint32_t index, LightSample *s) {
     const Light *light = &tracer->shading->scene->lights[index];
-    if (!tracer->shading->quality.shadows || s->shadow_done ||
-        (light->shadowless && !light->has_projection))
+    if (s->shadow_done || !light_has_shadow(tracer->shading, index))
         return;
     if (light->has_area && tracer->shading->quality.area_lights)
         area_shadow(tracer, surface, index, s);
     else
-        shadow_filter(tracer, index, surface->hit, s->dir, s->distance, surface->path->inside,
-                      &s->color);
+        shadow_filter(tracer, index, surface->hit, s, surface->path->inside);
     s->shadow_done = true;
 }
 
@@ -177,9 +185,7 @@ static void add_light(Tracer *tracer, const LitLayer *layer, uint32_t index, Rgb
 }
 
 void lights_add(Tracer *tracer, const LitLayer *layer, Rgb *color) {
-    const Finish *finish = layer->finish;
-    if (finish->diffuse == 0.0f && finish->diffuse_back == 0.0f && finish->specular == 0.0f &&
-        finish->phong == 0.0f)
+    if (!finish_is_lit(layer->finish))
         return;
     const Scene *scene = tracer->shading->scene;
     if (!tracer->shading->groups) {

@@ -47,6 +47,11 @@ static Rgb fresnel_reflectivity(const Finish *finish, double n, double cosine, d
 
 void reflect_layer(const Shading *shading, const Surface *surface, const Finish *finish,
                    Vec3 normal, Rgb layer_color, LayerReflection *out) {
+    // Most surfaces.
+    if (!finish_reflects(finish)) {
+        out->reflectivity = (Rgb){0};
+        return;
+    }
     double cosine = -vec_dot(surface->path->ray.dir, normal);
     out->normal = normal;
     out->finish = finish;
@@ -65,7 +70,7 @@ void reflect_layer(const Shading *shading, const Surface *surface, const Finish 
     }
 }
 
-static Vec3 reflect_dir(Vec3 dir, Vec3 normal, Vec3 raw_normal) {
+Vec3 reflect_dir(Vec3 dir, Vec3 normal, Vec3 raw_normal) {
     Vec3 out = vec_madd(dir, -2.0 * vec_dot(dir, normal), normal);
     // A perturbed normal can send the ray into the surface.
     double below = vec_dot(out, raw_normal);
@@ -84,6 +89,7 @@ Rgb reflect_trace(Tracer *tracer, const Surface *surface, const LayerReflection 
     next.ray.org = surface->hit->p;
     next.from = surface->hit;
     next.ray.dir = reflect_dir(path->ray.dir, reflection->normal, surface->normal);
+    next.foreseen = ahead_mirror(tracer, surface->hit, next.ray.dir);
     next.weight = (float)reflection->weight;
     next.kind = RAY_REFLECTION;
     next.alpha = false; // a mirror never shows the transparent background

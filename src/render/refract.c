@@ -47,6 +47,7 @@ bool refract_trace(Tracer *tracer, const Surface *surface, const Finish *finish,
         interior_cross(tracer->shading->scene, path->inside, surface->body, &node, &next.inside);
     next.ray.org = surface->hit->p;
     next.from = surface->hit;
+    next.foreseen = NULL;
     next.weight = weight;
     next.nesting++;
     next.kind = path->kind == RAY_CAMERA ? RAY_REFRACTED : path->kind;

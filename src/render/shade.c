@@ -89,7 +89,7 @@ static void shade_layers(Tracer *tracer, const Surface *surface, const Texture *
     layers->first = layers->end = tracer->reflection_top;
     // Rays that a texture before in the same map has sent on had hits of their own to light.
     if (tracer->lights_hit != surface->number)
-        lights_reset(tracer);
+        lights_reset(tracer, surface->hit);
     tracer->lights_hit = surface->number;
     for (uint32_t i = 0; i < texture->layer_count && layers->translucency > bailout; i++)
         shade_layer(tracer, surface, &texture->layers[i], p, layers);

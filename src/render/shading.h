@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What the files of the shading share (trace.h is their contract with the rest):
 //   tracer.c      one ray: nearest hit, shade or sky; start and end of a camera ray
+//   ahead.c       camera rays of neighbouring pixels, and the light rays of their hits, in packets
 //   shade.c       a hit: its layers, then what is seen through it and in it
 //   finish.c      diffuse, phong, specular, metallic, iridescence: one light on one layer
 //   light.c       light rays and the sum over the lights
@@ -33,6 +34,8 @@ typedef struct {
 typedef struct {
     uint32_t body;
     bool opaque; // a shadow ray ends here without looking at the texture
+    bool lit;    // lights may matter to it
+    bool mirror; // it reflects, and its normals are those of the shape
 } ObjectInfo;
 
 // What is known of a light before there is a surface.
@@ -81,8 +84,9 @@ typedef struct {
     int level;        // counts up to max_trace_level; passing straight through costs none
     uint32_t nesting; // rays between this and the camera ray, of whatever kind
     RayKind kind;
-    bool alpha;       // the background is transparent to this ray
-    float wavelength; // in nm, of a ray that dispersion has split off; 0: all of them
+    const WorldForeseen *foreseen; // what the ray meets of the patches; NULL: unknown
+    bool alpha;                    // the background is transparent to this ray
+    float wavelength;              // in nm, of a ray that dispersion has split off; 0: all of them
 } Path;
 
 // A light seen from the current hit: worked out once and kept for all layers.
@@ -92,6 +96,7 @@ typedef struct {
     Rgb color; // attenuated; after shadow_done also by what lies between
     double attenuation;
     bool ready, shadow_done;
+    const WorldForeseen *foreseen; // what the ray to it meets of the patches; NULL: unknown
 } LightSample;
 
 // A layer's reflection, kept until the layers are all done.
@@ -101,27 +106,48 @@ typedef struct {
     Rgb reflectivity;
     const Finish *finish;
 } LayerReflection;
+static inline bool rgb_is_black(Rgb c) { return c.r == 0.0f && c.g == 0.0f && c.b == 0.0f; }
+static inline bool finish_reflects(const Finish *finish) {
+    return !rgb_is_black(finish->reflection_max) || !rgb_is_black(finish->reflection_min);
+}
+
+// A camera ray that has been looked at before it is traced: what it meets, and what the ray along
+// mirror_dir meets of the patches.
+typedef struct {
+    bool met, mirrors;
+    WorldHit hit;
+    Vec3 mirror_dir;
+    WorldForeseen mirror;
+} AheadHit;
+enum { AHEAD_LIGHTS = 8 }; // scenes with more look at none
+
+typedef struct {
+    const Ray *rays; // of the sampler, in the order in which they come
+    size_t count, next, room;
+    WorldForeseen *patches;
+    AheadHit *hits;
+    uint32_t light_count;  // of each ray:
+    LightSample *lights;   // those that are not ready have not been looked at
+    WorldForeseen *shades; // what they mean by foreseen
+} Ahead;
 
 typedef struct Story Story; // story.h
 
 struct Tracer {
     const Shading *shading;
     RayStats stats;
-    uint32_t crand;               // state of the generator, from the camera ray's bits
-    uint32_t area_jitter;         // the same for points of area lights
-    uint32_t bow_jitter;          // and of rainbows
-    LightSample *lights;          // one per light, for the hit being shaded
+    uint32_t crand;       // state of the generator, from the camera ray's bits
+    uint32_t area_jitter; // the same for points of area lights
+    uint32_t bow_jitter;  // and of rainbows
+    LightSample *lights;  // one per light, for the hit being shaded: own_lights or ahead's
+    LightSample *own_lights;
     uint32_t *blockers;           // one per light: what was before it last (world_blocked)
     uint64_t hits, lights_hit;    // shaded so far; the number of the one that lights is for
     Rgb *grid;                    // light_area.c: what is known of the area light at hand
     LayerReflection *reflections; // a stack; each hit under way holds a piece of it
     uint32_t reflection_top;      // pieces in use
-    // tracer_foresee's rays, and what they meet; how many, and which one is next.
-    const Ray *rays_foreseen;
-    WorldForeseen *foreseen;
-    size_t foreseen_room, foreseen_count, foreseen_next;
-    const WorldForeseen *at_hand; // of the ray that is about to be traced, or NULL
-    Vec3 start;                   // where the last camera ray began
+    Ahead ahead;
+    Vec3 start; // where the last camera ray began
     bool start_known;
     InteriorList start_nodes[32]; // bodies around it, POV-Ray's list is as long as it needs
     const InteriorList *start_list;
@@ -154,10 +180,18 @@ typedef struct {
 // whole is read again before it is in the cache, and waits there.
 
 // tracer.c: the colour that comes along path->ray. continued: a ray passed straight through.
-void trace_path(Tracer *tracer, const Path *path, bool continued, Color *seen);
+// path is as it was afterwards.
+void trace_path(Tracer *tracer, Path *path, bool continued, Color *seen);
 
 // The next number in [0, 1] of POV-Ray's generator for crand.
 double tracer_random(uint32_t *state);
+
+// ahead.c: the hit that is known of the camera ray that is about to be traced; NULL: nothing is.
+AheadHit *ahead_take(Tracer *tracer, const Ray *ray);
+// The lights as they are for that hit; NULL: nothing is known of it.
+LightSample *ahead_lights(const Tracer *tracer, const WorldHit *hit);
+// What a reflection from that hit meets of the patches; NULL: unknown.
+const WorldForeseen *ahead_mirror(const Tracer *tracer, const WorldHit *hit, Vec3 dir);
 
 // shade.c
 // The hit's list of textures becomes that of hit_find_textures().
@@ -175,12 +209,21 @@ static inline bool hit_is_opaque(const Shading *shading, const WorldHit *hit) {
     return shading->objects[hit->object].opaque &&
            (hit->instance == NO_INDEX || shading->objects[hit->instance].opaque);
 }
+bool surface_is_lit(const Scene *scene, const Object *object);  // by some light, perhaps
+bool surface_mirrors(const Scene *scene, const Object *object); // and nothing bends its normal
 bool surface_is_opaque(const Textures *textures, const Object *object); // on both sides, everywhere
 
 // light.c: adds what the lights give to a layer.
 void lights_add(Tracer *tracer, const LitLayer *layer, Rgb *color);
-void lights_reset(Tracer *tracer); // a new hit is being shaded
+// Does it take light from lights?
+static inline bool finish_is_lit(const Finish *finish) {
+    return finish->diffuse != 0.0f || finish->diffuse_back != 0.0f || finish->specular != 0.0f ||
+           finish->phong != 0.0f;
+}
+void lights_reset(Tracer *tracer, const WorldHit *hit); // a new hit is being shaded
 
+// Is there something to ask between a surface and the light itself?
+bool light_has_shadow(const Shading *shading, uint32_t index);
 // What arrives of a light at p when nothing is between: from its location moved by offset.
 void light_sample(const Shading *shading, uint32_t index, Vec3 p, Vec3 offset, LightSample *s);
 // Only its direction and distance; false where they are the same point.
@@ -203,10 +246,13 @@ void area_shadow(Tracer *tracer, const Surface *surface, uint32_t index, LightSa
 void area_shine(Tracer *tracer, const LitLayer *layer, uint32_t index, const LightSample *sample,
                 Rgb *color);
 
-// shadow.c: multiplies color by what is let through from the hit along dir (unit) to the light at
+// shadow.c: multiplies the sample's color by what is let through from the hit to the light at
 // that distance. inside: the bodies around the surface's own ray.
-void shadow_filter(Tracer *tracer, uint32_t light, const WorldHit *from, Vec3 dir, double distance,
-                   const InteriorList *inside, Rgb *color);
+void shadow_filter(Tracer *tracer, uint32_t light, const WorldHit *from, LightSample *sample,
+                   const InteriorList *inside);
+// Up to where it asks the world first, of a light without projection.
+double shadow_limit(const Shading *shading, double distance);
+WorldNear shadow_near(const Shading *shading, const WorldHit *from, Vec3 dir);
 // The two halves of it. One point of an area light: all but the fog behind the last surface between
 // them; returns how long that way is. And that fog, for the light as a whole.
 double shadow_filter_point(Tracer *tracer, uint32_t light, const WorldHit *from, Vec3 dir,
@@ -227,6 +273,8 @@ double finish_metallic_fresnel(double cosine);
 // reflect.c
 void reflect_layer(const Shading *shading, const Surface *surface, const Finish *finish,
                    Vec3 normal, Rgb layer_color, LayerReflection *out);
+// The mirrored direction; raw_normal: the surface's, which it does not go below.
+Vec3 reflect_dir(Vec3 dir, Vec3 normal, Vec3 raw_normal);
 Rgb reflect_trace(Tracer *tracer, const Surface *surface, const LayerReflection *reflection);
 
 // refract.c

@@ -198,19 +198,21 @@ static bool find_projection(Tracer *tracer, uint32_t light, const Ray *ray, doub
 }
 
 // From surface to surface; what is left of the distance.
-static double follow(Tracer *tracer, Way *way, double distance, double before, Rgb *color) {
+static double follow(Tracer *tracer, Way *way, double distance, double before,
+                     const WorldForeseen *foreseen, Rgb *color) {
     const World *world = way->shading->world;
     const Rgb black = {0};
     if (way->shading->all_opaque) {
-        if (world_blocked(world, &way->ray, way->near, distance - before,
-                          &tracer->blockers[way->light - way->shading->scene->lights],
-                          &tracer->stats))
+        if (world_blocked_foreseen(world, &way->ray, way->near, distance - before, foreseen,
+                                   &tracer->blockers[way->light - way->shading->scene->lights],
+                                   &tracer->stats))
             *color = black;
         return distance;
     }
     WorldHit hit;
-    while (world_nearest(world, &way->ray, way->near, distance - before, RAY_SHADOW, &tracer->stats,
-                         &hit)) {
+    for (; world_nearest_foreseen(world, &way->ray, way->near, distance - before, RAY_SHADOW,
+                                  foreseen, &tracer->stats, &hit);
+         foreseen = NULL) {
         if (!surface_filter(way, &hit, color)) {
             *color = black;
             break;
@@ -223,13 +225,14 @@ static double follow(Tracer *tracer, Way *way, double distance, double before, R
 }
 
 static double filter_by_objects(Tracer *tracer, Way *way, uint32_t light, double distance,
-                                Rgb *color) {
+                                const WorldForeseen *foreseen, Rgb *color) {
     double before;
     tracer->stats.shadow++;
     if (!find_projection(tracer, light, &way->ray, distance, &before))
         *color = (Rgb){0};
     else if (!way->light->shadowless)
-        return follow(tracer, way, distance, fmax(before, shadow_tolerance(way->shading)), color);
+        return follow(tracer, way, distance, fmax(before, shadow_tolerance(way->shading)), foreseen,
+                      color);
     return distance;
 }
 
@@ -238,13 +241,33 @@ static void fog_the_rest(const Way *way, double distance, Rgb *color) {
         add_fog(way, distance, color);
 }
 
-void shadow_filter(Tracer *tracer, uint32_t light, const WorldHit *from, Vec3 dir, double distance,
-                   const InteriorList *inside, Rgb *color) {
+double shadow_limit(const Shading *shading, double distance) {
+    return distance - shadow_tolerance(shading);
+}
+
+WorldNear shadow_near(const Shading *shading, const WorldHit *from, Vec3 dir) {
+    return world_near(shading->world, from, dir, SHADOW_T_MIN);
+}
+
+void shadow_filter(Tracer *tracer, uint32_t light, const WorldHit *from, LightSample *s,
+                   const InteriorList *inside) {
+    const Shading *shading = tracer->shading;
+    Ray ray = {from->p, s->dir};
+    WorldNear near = shadow_near(shading, from, s->dir);
+    // One question, as a rule.
+    if (shading->all_opaque && shading->projections[light] == NULL &&
+        shading->scene->fog_count == 0) {
+        tracer->stats.shadow++;
+        if (world_blocked_foreseen(shading->world, &ray, near, shadow_limit(shading, s->distance),
+                                   s->foreseen, &tracer->blockers[light], &tracer->stats))
+            s->color = (Rgb){0};
+        return;
+    }
     Way way;
-    way_begin(&way, tracer->shading, light, (Ray){from->p, dir}, inside);
-    way.near = world_near(tracer->shading->world, from, dir, SHADOW_T_MIN);
-    double left = filter_by_objects(tracer, &way, light, distance, color);
-    fog_the_rest(&way, left, color);
+    way_begin(&way, shading, light, ray, inside);
+    way.near = near;
+    double left = filter_by_objects(tracer, &way, light, s->distance, s->foreseen, &s->color);
+    fog_the_rest(&way, left, &s->color);
 }
 
 double shadow_filter_point(Tracer *tracer, uint32_t light, const WorldHit *from, Vec3 dir,
@@ -252,7 +275,7 @@ double shadow_filter_point(Tracer *tracer, uint32_t light, const WorldHit *from,
     Way way;
     way_begin(&way, tracer->shading, light, (Ray){from->p, dir}, inside);
     way.near = world_near(tracer->shading->world, from, dir, SHADOW_T_MIN);
-    return filter_by_objects(tracer, &way, light, distance, color);
+    return filter_by_objects(tracer, &way, light, distance, NULL, color);
 }
 
 void shadow_fog(const Shading *shading, uint32_t light, Ray ray, double distance,

@@ -78,6 +78,8 @@ static void prepare_objects(Shading *shading) {
         ObjectInfo *info = &shading->objects[i];
         info->body = body_of(scene, i, NO_INDEX);
         info->opaque = surface_is_opaque(shading->textures, object);
+        info->lit = surface_is_lit(scene, object);
+        info->mirror = surface_mirrors(scene, object);
         bool instance = object->type == OBJECT_INSTANCE;
         if (instance)
             prepare_instance(shading, i, &leaves[object->shape.instance.definition]);
@@ -210,7 +212,8 @@ Tracer *tracer_create(const Shading *shading) {
     Tracer *tracer = ARENA_NEW(arena, Tracer);
     tracer->arena = arena;
     tracer->shading = shading;
-    tracer->lights = ARENA_ARRAY(arena, LightSample, shading->scene->light_count);
+    tracer->lights = tracer->own_lights =
+        ARENA_ARRAY(arena, LightSample, shading->scene->light_count);
     tracer->blockers = ARENA_ARRAY(arena, uint32_t, shading->scene->light_count);
     for (uint32_t i = 0; i < shading->scene->light_count; i++)
         tracer->blockers[i] = WORLD_NO_BLOCKER;
@@ -256,11 +259,32 @@ static void tell_hit(const Tracer *tracer, const Path *path, bool continued, con
     story_hit(tracer->story, path, hit, &work);
 }
 
-void trace_path(Tracer *tracer, const Path *path, bool continued, Color *seen) {
+// What comes along a ray from what it meets; hit is known, where there is one, and here to stay.
+static void show(Tracer *tracer, Path *path, bool continued, WorldHit *hit, Color *seen) {
     const Shading *shading = tracer->shading;
-    const Settings *settings = &shading->scene->settings;
-    if (path->level >= settings->max_trace_level || path->weight < settings->adc_bailout ||
-        path->nesting > NESTING_LIMIT) {
+    if (!hit) {
+        *seen = atmosphere_sky(shading, path->ray.dir, path->alpha);
+        see_through_air(tracer, path, SHADE_FAR, seen);
+        return;
+    }
+    const int level = path->level;
+    path->level += continued ? 0 : 1;
+    shade_hit(tracer, path, hit, seen);
+    path->level = level;
+    see_through_air(tracer, path, hit->t, seen);
+    if (tracer->story)
+        story_color(tracer->story, path, *seen);
+}
+
+static bool is_of_no_interest(const Tracer *tracer, const Path *path) {
+    const Settings *settings = &tracer->shading->scene->settings;
+    return path->level >= settings->max_trace_level || path->weight < settings->adc_bailout ||
+           path->nesting > NESTING_LIMIT;
+}
+
+void trace_path(Tracer *tracer, Path *path, bool continued, Color *seen) {
+    const Shading *shading = tracer->shading;
+    if (is_of_no_interest(tracer, path)) {
         *seen = (Color){0};
         return;
     }
@@ -269,23 +293,11 @@ void trace_path(Tracer *tracer, const Path *path, bool continued, Color *seen) {
     if (tracer->story)
         before = tracer->stats.patch;
     WorldNear near = world_near(shading->world, path->from, path->ray.dir, SHADE_MIN_DEPTH);
-    const WorldForeseen *foreseen = tracer->at_hand;
-    tracer->at_hand = NULL;
     bool met = world_nearest_foreseen(shading->world, &path->ray, near, INFINITY, path->kind,
-                                      foreseen, &tracer->stats, &hit);
+                                      path->foreseen, &tracer->stats, &hit);
     if (tracer->story)
         tell_hit(tracer, path, continued, met ? &hit : NULL, &before);
-    if (!met) {
-        *seen = atmosphere_sky(shading, path->ray.dir, path->alpha);
-        see_through_air(tracer, path, SHADE_FAR, seen);
-        return;
-    }
-    Path here = *path;
-    here.level += continued ? 0 : 1;
-    shade_hit(tracer, &here, &hit, seen);
-    see_through_air(tracer, path, hit.t, seen);
-    if (tracer->story)
-        story_color(tracer->story, path, *seen);
+    show(tracer, path, continued, met ? &hit : NULL, seen);
 }
 
 // The bodies around the start of a camera ray; all rays of a perspective camera share them.
@@ -320,31 +332,6 @@ static uint32_t grain_seed(const Ray *ray) {
     return hash;
 }
 
-void tracer_foresee(Tracer *tracer, const Ray *rays, size_t across, size_t down) {
-    const World *world = tracer->shading->world;
-    size_t count = across * down;
-    tracer->foreseen_count = tracer->foreseen_next = 0;
-    if (count > tracer->foreseen_room) {
-        tracer->foreseen = ARENA_ARRAY(tracer->arena, WorldForeseen, count);
-        tracer->foreseen_room = count;
-    }
-    WorldNear near = world_near(world, NULL, vec3(0, 0, 0), SHADE_MIN_DEPTH);
-    if (world_foresee(world, rays, across, down, near, RAY_CAMERA, &tracer->stats,
-                      tracer->foreseen)) {
-        tracer->rays_foreseen = rays;
-        tracer->foreseen_count = count;
-    }
-}
-
-static const WorldForeseen *take_foreseen(Tracer *tracer, const Ray *ray) {
-    size_t next = tracer->foreseen_next;
-    if (next >= tracer->foreseen_count ||
-        memcmp(&tracer->rays_foreseen[next], ray, sizeof *ray) != 0)
-        return NULL;
-    tracer->foreseen_next++;
-    return &tracer->foreseen[next];
-}
-
 Color tracer_trace(Tracer *tracer, const Ray *ray) {
     const Shading *shading = tracer->shading;
     Path path = {
@@ -357,9 +344,12 @@ Color tracer_trace(Tracer *tracer, const Ray *ray) {
     if (shading->grainy)
         tracer->crand = tracer->area_jitter = tracer->bow_jitter = grain_seed(ray);
     tracer->stats.primary++;
-    tracer->at_hand = take_foreseen(tracer, ray);
-    Color color;
-    trace_path(tracer, &path, false, &color);
+    AheadHit *ahead = ahead_take(tracer, ray);
+    Color color = {0};
+    if (!ahead)
+        trace_path(tracer, &path, false, &color);
+    else if (!is_of_no_interest(tracer, &path))
+        show(tracer, &path, false, ahead->met ? &ahead->hit : NULL, &color);
     color.filter = 0.0f;
     if (!shading->options.alpha)
         color.transmit = 0.0f;

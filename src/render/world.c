@@ -478,6 +478,11 @@ bool world_occluded(const World *world, const Ray *ray, double t_min, double t_m
 
 bool world_blocked(const World *world, const Ray *ray, WorldNear near, double t_max, uint32_t *last,
                    RayStats *stats) {
+    return world_blocked_foreseen(world, ray, near, t_max, NULL, last, stats);
+}
+
+bool world_blocked_foreseen(const World *world, const Ray *ray, WorldNear near, double t_max,
+                            const WorldForeseen *foreseen, uint32_t *last, RayStats *stats) {
     Ray unit;
     RayStats unused;
     if (!stats) {
@@ -499,9 +504,13 @@ bool world_blocked(const World *world, const Ray *ray, WorldNear near, double t_
             return true;
         *last = WORLD_NO_BLOCKER;
     }
-    if (world->patches && patchset_occluded(world->patches, &unit, patch_min, query.t, RAY_SHADOW,
-                                            &query.stats->patch))
+    if (foreseen) {
+        if (foreseen->found)
+            return true;
+    } else if (world->patches && patchset_occluded(world->patches, &unit, patch_min, query.t,
+                                                   RAY_SHADOW, &query.stats->patch)) {
         return true;
+    }
     try_prims(&query);
     if (query.leaf)
         *last = (uint32_t)((query.outer ? query.outer : query.prim) - world->prims);

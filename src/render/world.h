@@ -87,11 +87,33 @@ bool world_nearest_foreseen(const World *world, const Ray *ray, WorldNear near, 
 // of `across` rays, which is faster than one after the other. False: there is nothing to be gained.
 bool world_foresee(const World *world, const Ray *rays, size_t across, size_t down, WorldNear near,
                    RayKind kind, RayStats *stats, WorldForeseen *foreseen);
+// The same for up to PATCH_PACKET rays, each with its own range. any: an answer says no more than
+// whether there is a hit, as world_blocked_foreseen wants it. Only where world_foresees().
+typedef struct {
+    size_t count;
+    Ray rays[PATCH_PACKET];
+    PatchRange ranges[PATCH_PACKET];
+    WorldForeseen *answers[PATCH_PACKET]; // filled in
+} WorldAsked;
+bool world_foresees(const World *world);
+// One more; false: not this one, whose length is not 1. There is room for it.
+bool world_ask(WorldAsked *asked, const Ray *ray, WorldNear near, double t_max, RayKind kind,
+               WorldForeseen *answer);
+void world_foresee_some(const World *world, const WorldAsked *asked, bool any, RayStats *stats);
+// Rows of rays in packets: which of down x across rays lie side by side. Zeroed at first; false:
+// that were all.
+typedef struct {
+    size_t left, top;
+    size_t number[PATCH_PACKET], count; // of the next packet
+} WorldPackets;
+bool world_next_packet(WorldPackets *packets, size_t across, size_t down);
 // Is anything that throws a shadow between? Only right when all of that is opaque. last: what
 // blocked the ray before, WORLD_NO_BLOCKER at first: it is asked first, and kept up to date.
 #define WORLD_NO_BLOCKER UINT32_MAX
 bool world_blocked(const World *world, const Ray *ray, WorldNear near, double t_max, uint32_t *last,
                    RayStats *stats);
+bool world_blocked_foreseen(const World *world, const Ray *ray, WorldNear near, double t_max,
+                            const WorldForeseen *foreseen, uint32_t *last, RayStats *stats);
 // The same with one t_min for both, and no memory.
 bool world_occluded(const World *world, const Ray *ray, double t_min, double t_max,
                     RayStats *stats);

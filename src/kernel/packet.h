@@ -105,7 +105,7 @@ static void piece_of_ray(RayPacket *p, int i, const Block *block, int lane, floa
     walk.t_least = ray_least(&ray, near);
     LeafRay at = leaf_ray(block, &ray, near);
     leaf_test(block, &at, &lanes);
-    const Piece *piece = piece_begin(&walk, block->first + (uint32_t)lane);
+    const Piece *piece = piece_begin(&walk, block, lane);
     bool lost = (lanes.single >> lane & 1) && walk.ray.patch->cubic;
     if (lost)
         search_rest(&walk, piece, &lanes, lane, ray.k);
@@ -193,9 +193,9 @@ static inline unsigned rays_of_mask(const RayPacket *p, unsigned rays, uint32_t 
 
 static inline void rays_search(RayPacket *p, const Block *block, int lane, unsigned meets,
                                unsigned single, const RaysLocal *local, const float *near) {
-    uint32_t number = block->first + (uint32_t)lane;
-    const Piece *piece = &p->accel->pieces[number];
-    meets = rays_of_mask(p, meets, piece->mask);
+    uint32_t number = block_piece(block, (uint32_t)lane);
+    const Piece *piece = accel_piece(p->accel, number);
+    meets = rays_of_mask(p, meets, block->mask[lane]);
     if (!p->accel->patches[piece->patch].cubic)
         single = 0;
     unsigned fast = meets & single, slow = meets & ~single;
@@ -216,7 +216,7 @@ static inline void rays_search(RayPacket *p, const Block *block, int lane, unsig
 }
 
 static void rays_visit_leaf(RayPacket *p, uint32_t leaf, unsigned rays, const float *near) {
-    const Block *block = &p->accel->blocks[leaf];
+    const Block *block = accel_block(p->accel, leaf);
     RaysAtLeaf at;
     RaysLocal local;
     rays_at_leaf(p, block, near, &at);

@@ -168,7 +168,7 @@ static inline void rays_take(RayPacket *p, int i, unsigned bits, const RaysHit *
 // those that got lost on the way.
 static inline unsigned rays_sharpen(RayPacket *p, int i, unsigned bits, uint32_t number,
                                     const float *a_guess, const float *b_guess) {
-    const Piece *piece = &p->accel->pieces[number];
+    const Piece *piece = accel_piece(p->accel, number);
     const AccelPatch *patch = &p->accel->patches[piece->patch];
     const BezierRect rect = piece_rect(piece);
     WD u = 0.5 * (rect.u0 + rect.u1) + 0.5 * (rect.u1 - rect.u0) * wd_from_floats(a_guess + i);

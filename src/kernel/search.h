@@ -141,7 +141,7 @@ static bool search_qi(Walk *walk, const Piece *piece, BezierRect rect) {
     QiQuery ask = {query->ray, query->t_min, t_max, ray->patch->tolerance, rect, NULL};
     QiFourth fourth = {piece_rect(piece), NULL};
     if (walk->accel->fourth) {
-        fourth.most = walk->accel->fourth[piece - walk->accel->pieces].most;
+        fourth.most = walk->accel->fourth[piece->fourth].most;
         ask.fourth = &fourth;
     }
     QiStats stats = {0};

@@ -106,25 +106,23 @@ static inline void guess(const Piece *piece, const LeafLanes *lanes, int lane, d
     *v = clamp(0.5 * (r.v0 + r.v1) + 0.5 * (r.v1 - r.v0) * (double)b, r.v0, r.v1);
 }
 
-static inline const Piece *piece_begin(Walk *walk, uint32_t number) {
+static inline const Piece *piece_begin(Walk *walk, const Block *block, int lane) {
     const Accel *accel = walk->accel;
-    const Piece *piece = &accel->pieces[number];
-    walk->piece = number;
-    if (walk->patch != piece->patch) {
-        walk->patch = piece->patch;
-        prefetch(&accel->patches[piece->patch].own, sizeof accel->patches->own);
-        patch_ray_init(&walk->ray, &accel->patches[piece->patch], &walk->query->ray, walk->dir,
+    uint32_t patch = block->patch[lane];
+    walk->piece = block_piece(block, (uint32_t)lane);
+    if (walk->patch != patch) {
+        walk->patch = patch;
+        patch_ray_init(&walk->ray, &accel->patches[patch], &walk->query->ray, walk->dir,
                        walk->t_per_s);
     }
-    return piece;
+    return accel_piece(accel, walk->piece);
 }
 
 static inline bool search_piece(Walk *walk, const Block *block, const LeafLanes *lanes, int lane,
                                 float k) {
-    uint32_t number = block->first + (uint32_t)lane;
-    if (!(walk->accel->pieces[number].mask & walk->query->mask))
+    if (!(block->mask[lane] & walk->query->mask))
         return true;
-    const Piece *piece = piece_begin(walk, number);
+    const Piece *piece = piece_begin(walk, block, lane);
     // Beside patches 1e10 times their size others are one point of the tree.
     if (block->coarse >> lane & 1 && patch_ray_misses(&walk->ray))
         return true;
@@ -152,7 +150,7 @@ static inline LeafRay leaf_ray(const Block *block, const KernelRay *tree, float 
 }
 
 static inline bool visit_leaf(Walk *walk, const KernelRay *tree, uint32_t leaf, float near) {
-    const Block *block = &walk->accel->blocks[leaf];
+    const Block *block = accel_block(walk->accel, leaf);
     walk->t_least = ray_least(tree, near);
     LeafRay ray = leaf_ray(block, tree, near);
     LeafLanes lanes;
@@ -160,8 +158,12 @@ static inline bool visit_leaf(Walk *walk, const KernelRay *tree, uint32_t leaf, 
     walk->query->stats.patch_tests += block->count;
     walk->query->stats.steps += block->count;
     unsigned meets = lanes.meets;
-    for (unsigned left = meets; left; left &= left - 1)
-        prefetch(&walk->accel->pieces[block->first + (uint32_t)__builtin_ctz(left)], sizeof(Piece));
+    for (unsigned left = meets; left; left &= left - 1) {
+        uint32_t lane = (uint32_t)__builtin_ctz(left);
+        prefetch(accel_piece(walk->accel, block_piece(block, lane)), sizeof(Piece));
+        if (block->patch[lane] != walk->patch)
+            prefetch(&walk->accel->patches[block->patch[lane]], sizeof(AccelPatch));
+    }
     while (meets) {
         // From near to far.
         int lane = __builtin_ctz(meets);
@@ -183,6 +185,22 @@ static inline bool visit_leaf(Walk *walk, const KernelRay *tree, uint32_t leaf, 
     return true;
 }
 
+static bool visit_block(Walk *walk, const Block *block) {
+    const Accel *accel = walk->accel;
+    for (uint32_t i = 0; i < block->count; i++) {
+        if (!(block->mask[i] & walk->query->mask))
+            continue;
+        walk->piece = block_piece(block, i);
+        walk->patch = block->patch[i];
+        patch_ray_init(&walk->ray, &accel->patches[walk->patch], &walk->query->ray, walk->dir,
+                       walk->t_per_s);
+        const Piece *piece = accel_piece(accel, walk->piece);
+        if (!search_rect(walk, piece, piece_rect(piece)))
+            return false;
+    }
+    return true;
+}
+
 // Pieces of every leaf, for rays that come from too far away for the boxes.
 static void visit_all(Walk *walk) {
     const Accel *accel = walk->accel;
@@ -192,16 +210,11 @@ static void visit_all(Walk *walk) {
         return;
     walk->dir = ray.unit;
     walk->t_per_s = accel->tree.scale / ray.s_per_t;
-    for (uint32_t i = 0; i < accel->piece_count; i++) {
-        const Piece *piece = &accel->pieces[i];
-        if (!(piece->mask & walk->query->mask))
-            continue;
-        walk->piece = i;
-        walk->patch = piece->patch;
-        patch_ray_init(&walk->ray, &accel->patches[piece->patch], &walk->query->ray, walk->dir,
-                       walk->t_per_s);
-        if (!search_rect(walk, piece, piece_rect(piece)))
+    for (uint32_t at = 0; at < accel->line_count;) {
+        const Block *block = accel_block(accel, at);
+        if (!visit_block(walk, block))
             return;
+        at = block_piece(block, block->count);
     }
 }
 
@@ -243,7 +256,7 @@ static inline void walk_from(Walk *walk, KernelRay *ray, Entry at) {
                         stack[place] = stack[place - 1];
                     stack[place] = other;
                     if (other.child & TREE_LEAF)
-                        prefetch(&walk->accel->blocks[other.child & ~TREE_LEAF], sizeof(Block));
+                        prefetch(accel_block(walk->accel, other.child & ~TREE_LEAF), sizeof(Block));
                     else
                         prefetch(&tree->nodes[other.child], sizeof(TreeNode));
                 }

@@ -3,6 +3,7 @@
 #include "patch/piece.h"
 
 #include "base/array.h"
+#include "base/diag.h"
 #include "patch/bernstein.h"
 #include "patch/qi_local.h"
 #include "patch/quasi.h"
@@ -197,8 +198,8 @@ static float bound_up(double bound, double error) {
 }
 
 // What is to be known of a piece besides its frame.
-static void complete(const Bezier *s, double net_error, BezierRect rect, uint32_t mask,
-                     uint32_t patch, Piece *out) {
+static void complete(const Bezier *s, double net_error, BezierRect rect, uint32_t patch,
+                     Piece *out) {
     double error = 8.0 * net_error; // four points, in length
     int du = s->du, dv = s->dv;
     double width = rect.u1 - rect.u0, height = rect.v1 - rect.v0;
@@ -212,7 +213,6 @@ static void complete(const Bezier *s, double net_error, BezierRect rect, uint32_
     out->muv = bound_up(bends.uv * uv, error * du * dv * uv);
     out->mvv = bound_up(bends.vv * vv, error * dv * dv * vv);
     out->patch = patch;
-    out->mask = mask;
 }
 
 // Length of a mean of opposite sides.
@@ -410,15 +410,12 @@ static void make_patches(Arena *arena, Accel *accel) {
 }
 
 // cuts and boxes: of the whole set, not in the order of the tree.
-static void make_block(const Accel *accel, const Cut *cuts, const Box *boxes, uint32_t leaf,
+static void make_block(const Accel *accel, const Cut *cuts, const Box *boxes, const uint32_t *order,
                        Block *block) {
     const Tree *tree = &accel->tree;
-    block->first = tree->leaf_first[leaf];
-    block->count = tree->leaf_first[leaf + 1] - block->first;
-    assert(block->count >= 1 && block->count <= BLOCK_LANES);
     Box box = box_empty();
     for (uint32_t i = 0; i < block->count; i++)
-        box = box_union(box, boxes[tree->order[block->first + i]]);
+        box = box_union(box, boxes[order[i]]);
     double square = 0.0;
     for (int axis = 0; axis < 3; axis++) {
         double low = (vec_get(box.low, axis) - vec_get(tree->center, axis)) * tree->scale;
@@ -434,20 +431,59 @@ static void make_block(const Accel *accel, const Cut *cuts, const Box *boxes, ui
             block->shift[0][i] = block->shift[1][i] = block->shift[2][i] = 2.0f;
             continue;
         }
-        const Cut *cut = &cuts[tree->order[block->first + i]];
+        const Cut *cut = &cuts[order[i]];
         const AccelPatch *patch = &accel->patches[cut->patch];
-        Piece *piece = &accel->pieces[block->first + i];
+        Piece *piece = (Piece *)accel_piece(accel, block_piece(block, i));
         Bezier whole, part;
         PieceFrame frame;
         patch_about_center(patch, &whole);
         double error = net_rounding(&whole);
         piece_part(&whole, cut->rect, &part);
         frame_measure(&part, error, &frame);
-        complete(&part, error, cut->rect, patch->def->mask, cut->patch, piece);
-        if (qi_local_pays(part.du, part.dv))
-            qi_local_fourth(&part, error, accel->fourth[block->first + i].most);
+        complete(&part, error, cut->rect, cut->patch, piece);
+        if (qi_local_pays(part.du, part.dv)) {
+            piece->fourth = (uint32_t)(order - tree->order) + i;
+            qi_local_fourth(&part, error, accel->fourth[piece->fourth].most);
+        }
         frame_to_lane(&frame, &part, tree, patch->center, reach, block, (int)i, piece);
+        block->patch[i] = cut->patch;
+        block->mask[i] = patch->def->mask;
     }
+}
+
+// The line at which the block of a leaf begins, or what comes after the last leaf.
+static size_t leaf_line(const Tree *tree, uint32_t leaf) {
+    return (size_t)LINES_OF_BLOCK * leaf + (size_t)LINES_OF_PIECE * tree->leaf_first[leaf];
+}
+
+// A leaf's number becomes that of its block.
+static uint32_t child_by_line(const Tree *tree, uint32_t child) {
+    if (child == TREE_NONE || !(child & TREE_LEAF))
+        return child;
+    return TREE_LEAF | (uint32_t)leaf_line(tree, child & ~TREE_LEAF);
+}
+
+static void make_leaves(Arena *arena, const CutList *all, Accel *accel) {
+    Tree *tree = &accel->tree;
+    accel->line_count = leaf_line(tree, tree->leaf_count);
+    if (accel->line_count >= TREE_LEAF)
+        die("%zu patches are too many", accel->patch_count);
+    accel->lines = arena_array(arena, accel->line_count, LINE);
+#pragma omp parallel for schedule(dynamic, 64)
+    for (uint32_t leaf = 0; leaf < tree->leaf_count; leaf++) {
+        size_t line = leaf_line(tree, leaf);
+        Block *block = (Block *)accel_block(accel, (uint32_t)line);
+        block->first = (uint32_t)line + LINES_OF_BLOCK;
+        block->count = tree->leaf_first[leaf + 1] - tree->leaf_first[leaf];
+        assert(block->count >= 1 && block->count <= BLOCK_LANES);
+        make_block(accel, all->cuts.items, all->boxes.items, tree->order + tree->leaf_first[leaf],
+                   block);
+    }
+    for (uint32_t i = 0; i < tree->node_count; i++) {
+        for (int k = 0; k < TREE_WIDTH; k++)
+            tree->nodes[i].child[k] = child_by_line(tree, tree->nodes[i].child[k]);
+    }
+    tree->root = child_by_line(tree, tree->root);
 }
 
 static size_t piece_limit(PatchPrepare prepare, size_t patches) {
@@ -494,16 +530,11 @@ void pieces_build(Arena *arena, const PatchDef *defs, size_t count, PatchPrepare
     cut_all(accel, piece_limit(prepare, count), &all);
     tree_build(arena, all.boxes.items, (uint32_t)all.boxes.count, BLOCK_LANES, &accel->tree);
 
-    accel->piece_count = all.cuts.count;
-    accel->pieces = ARENA_ARRAY(arena, Piece, accel->piece_count);
     bool high = false;
     for (size_t i = 0; i < count; i++)
         high |= qi_local_pays((int)defs[i].degree_u, (int)defs[i].degree_v);
-    accel->fourth = high ? ARENA_ARRAY(arena, PieceFourth, accel->piece_count) : NULL;
-    accel->blocks = ARENA_ARRAY(arena, Block, accel->tree.leaf_count);
-#pragma omp parallel for schedule(dynamic, 64)
-    for (uint32_t leaf = 0; leaf < accel->tree.leaf_count; leaf++)
-        make_block(accel, all.cuts.items, all.boxes.items, leaf, &accel->blocks[leaf]);
+    accel->fourth = high ? ARENA_ARRAY(arena, PieceFourth, all.cuts.count) : NULL;
+    make_leaves(arena, &all, accel);
     array_free(&all.cuts);
     array_free(&all.boxes);
 }

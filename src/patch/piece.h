@@ -79,7 +79,7 @@ typedef union {
         float xyz14[3];
         uint32_t patch;
         float xyz15[3];
-        uint32_t mask;
+        uint32_t fourth; // of a piece of high degree: its number in Accel's
     };
 } Piece;
 _Static_assert(sizeof(Piece) == 256, "four lines of cache");
@@ -95,11 +95,19 @@ typedef struct {
     float axis[3][3][BLOCK_LANES]; // [row][coordinate]
     float shift[3][BLOCK_LANES], steep[3][BLOCK_LANES];
     float center[4];       // tree space; the fourth is 0
-    uint32_t first, count; // lane i is pieces[first + i]
+    uint32_t first, count; // accel_piece(first + LINES_OF_PIECE i) is lane i
     uint32_t coarse;       // bit i: rounding makes the box of lane i twice as large as the piece
     uint32_t unused;
+    // Of each lane: its patch, which the piece knows too, but so both can be fetched at once; and
+    // the rays that may meet it.
+    uint32_t patch[BLOCK_LANES], mask[BLOCK_LANES];
 } Block;
-_Static_assert(sizeof(Block) == 512, "eight lines of cache");
+_Static_assert(sizeof(Block) == 576, "nine lines of cache");
+
+// Blocks and pieces are numbered by the lines of cache before them: of each leaf the block and then
+// its pieces, since a ray that asks for a piece has come from its block, and what lies in the same
+// page of memory is found sooner.
+enum { LINE = 64, LINES_OF_BLOCK = sizeof(Block) / LINE, LINES_OF_PIECE = sizeof(Piece) / LINE };
 
 // Of a piece of a patch of high degree: see qi_local.h.
 typedef struct {
@@ -109,12 +117,21 @@ typedef struct {
 typedef struct Accel {
     const PatchDef *defs;
     AccelPatch *patches;
-    Piece *pieces;
-    PieceFourth *fourth; // of each piece; NULL: no patch has such a degree
-    Block *blocks;       // one per leaf of the tree
-    Tree tree;
-    size_t patch_count, piece_count;
+    char *lines;
+    PieceFourth *fourth; // of pieces of high degree; NULL: there are none
+    Tree tree;           // its leaves' numbers are those of their blocks
+    size_t patch_count, line_count;
 } Accel;
+
+static inline const Block *accel_block(const Accel *accel, uint32_t number) {
+    return (const Block *)(accel->lines + (size_t)number * LINE);
+}
+static inline const Piece *accel_piece(const Accel *accel, uint32_t number) {
+    return (const Piece *)(accel->lines + (size_t)number * LINE);
+}
+static inline uint32_t block_piece(const Block *block, uint32_t lane) {
+    return block->first + LINES_OF_PIECE * lane;
+}
 
 // Cuts the patches (in parallel) and builds the tree. defs and their points must stay.
 void pieces_build(Arena *arena, const PatchDef *defs, size_t count, PatchPrepare prepare,

@@ -62,24 +62,32 @@ static char *scene_text(const char *stage, const char *scene) {
     return text;
 }
 
-void compare_table(const char *stage, const char *const *scenes, size_t count, double share) {
+static void compare(void **state) {
+    const PovrayTable *table = *state;
     PovrayPictures *pictures = povray_create(TABLE_WIDTH, TABLE_HEIGHT);
-    for (size_t i = 0; i < count; i++)
-        write_job(pictures, i, scene_text(stage, scenes[i]));
-    if (!povray_render(pictures, count)) {
+    for (size_t i = 0; i < table->count; i++)
+        write_job(pictures, i, scene_text(table->stage, table->scenes[i]));
+    if (!povray_render(pictures, table->count)) {
         povray_destroy(pictures);
         print_message("povray is not installed: nothing to compare with\n");
         skip();
     }
     bool good = true;
-    for (size_t i = 0; i < count; i++) {
+    for (size_t i = 0; i < table->count; i++) {
         const uint16_t *pixels = povray_read(pictures, i);
         if (!pixels)
             fail_msg("povray refused %s/job%zu.pov", pictures->directory, i);
-        int differ = count_differences(pixels, scene_text(stage, scenes[i]));
+        int differ = count_differences(pixels, scene_text(table->stage, table->scenes[i]));
         print_message("scene %zu: %d of %d pixels differ\n", i, differ, PIXELS);
-        good = good && differ <= share * PIXELS;
+        good = good && differ <= table->share * PIXELS;
     }
     povray_destroy(pictures);
     assert_true(good);
+}
+
+int povray_table_run(const PovrayTable *table) {
+    const struct CMUnitTest tests[] = {
+        {"pictures", compare, NULL, NULL, (void *)(uintptr_t)table},
+    };
+    return cmocka_run_group_tests_name(table->name, tests, NULL, NULL);
 }

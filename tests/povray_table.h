@@ -16,9 +16,18 @@
 
 enum { TABLE_WIDTH = 64, TABLE_HEIGHT = 48 };
 
-// For a cmocka test: it fails when in some scene more than `share` of the pixels are off by more
-// than a rounding of 16 bits. stage: what stands in front of every text, after "#version 3.7;
-// global_settings { assumed_gamma 1 }". Passes over with a message when there is no povray.
-void compare_table(const char *stage, const char *const *scenes, size_t count, double share);
+typedef struct {
+    const char *name; // of the test program
+    // What stands in front of every text, after "#version 3.7; global_settings { assumed_gamma 1
+    // }".
+    const char *stage;
+    const char *const *scenes;
+    size_t count;
+    double share; // of a scene's pixels that may be off by more than a rounding of 16 bits
+} PovrayTable;
+
+// A test program's whole work; returns what its main does. Passes over with a message when there is
+// no povray.
+int povray_table_run(const PovrayTable *table);
 
 #endif

@@ -13,6 +13,7 @@
 #include "base/diag.h"
 #include "image/image.h"
 #include "options/animation.h"
+#include "option_line.h"
 #include "tests/reference.h"
 
 #include <dirent.h>
@@ -21,18 +22,6 @@
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
-
-static RenderOptions options_of(Arena *arena, const char *line) {
-    char *words[16] = {arena_strdup(arena, "qirender")}, *save = NULL;
-    int count = 1;
-    for (char *w = strtok_r(arena_strdup(arena, line), " ", &save); w;
-         w = strtok_r(NULL, " ", &save))
-        words[count++] = w;
-    RenderOptions o = options_default();
-    if (!options_parse(PROGRAM_QIRENDER, count, words, arena, &o))
-        fail_msg("refused: %s", line);
-    return o;
-}
 
 // What POV-Ray 3.7 rendered for each line.
 static void frames(void **state) {
@@ -59,7 +48,7 @@ static void frames(void **state) {
         {"+KFI2", 2, 2, 1, 2, 2, 1, NAN},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        RenderOptions o = options_of(arena, cases[i].line);
+        RenderOptions o = options_of_line(arena, cases[i].line);
         Animation a;
         assert_true(animation_of(&o, &a));
         if (a.first != cases[i].first || a.last != cases[i].last || a.step != cases[i].step ||
@@ -81,7 +70,7 @@ static void single_pictures(void **state) {
     static const char *const lines[] = {"+W3",         "+K2",           "+KFI1 +KFF1",    "+KFF0",
                                         "+KFI0 +KFF0", "+KC +KI3 +KF4", "+SF3 +EF4 +STP2"};
     for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {
-        RenderOptions o = options_of(arena, lines[i]);
+        RenderOptions o = options_of_line(arena, lines[i]);
         Animation a;
         if (animation_of(&o, &a))
             fail_msg("%s is no animation", lines[i]);
@@ -103,7 +92,7 @@ static void names(void **state) {
         {"s.pov +O-", "png", "-"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        RenderOptions o = options_of(arena, cases[i].line);
+        RenderOptions o = options_of_line(arena, cases[i].line);
         Animation a;
         o.final_frame = 10;
         assert_true(animation_of(&o, &a));

@@ -22,13 +22,18 @@ static Camera camera(const char *items) {
     return scene_of(text)->camera;
 }
 
-static Camera old_camera(const char *items) {
-    char text[1024];
-    snprintf(text, sizeof text, "#version 3.1; camera { %s } sphere { 0, 1 }", items);
+// As scene_of, of the text as it is.
+static const Scene *scene_of_raw(const char *text) {
     Converted result = convert_raw(text);
     if (!result.scene)
         fail_msg("%s", result.message);
-    return result.scene->camera;
+    return result.scene;
+}
+
+static Camera old_camera(const char *items) {
+    char text[1024];
+    snprintf(text, sizeof text, "#version 3.1; camera { %s } sphere { 0, 1 }", items);
+    return scene_of_raw(text)->camera;
 }
 
 static void camera_defaults(void **state) {
@@ -153,10 +158,7 @@ static void several_cameras(void **state) {
 static Settings settings(const char *raw) {
     char text[512];
     snprintf(text, sizeof text, "%s sphere { 0, 1 }", raw);
-    Converted result = convert_raw(text);
-    if (!result.scene)
-        fail_msg("%s", result.message);
-    return result.scene->settings;
+    return scene_of_raw(text)->settings;
 }
 
 static void versions_and_gamma(void **state) {

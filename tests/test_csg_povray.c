@@ -1,16 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Intersections, differences, merges and clips, converted and traced here, against POV-Ray's
 // pictures of the same texts. Patches are its own triangles, so that every pixel may agree.
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
-
 #include "tests/povray_table.h"
 
-// What stands in front of every text, after "#version 3.7; global_settings { assumed_gamma 1 }".
 static const char STAGE[] =
     "#declare R = pigment { rgb <1, 0.2, 0.1> }\n"
     "#declare G = pigment { rgb <0.2, 0.9, 0.3> }\n"
@@ -99,14 +91,11 @@ static const char *const SCENES[] = {
     " plane { x, 1 } plane { -x, 1 } plane { <1, 1, 0>, 1 } plane { <-1, -1, 0.2>, 1 } plane { z, 1"
     " } plane { -z, 1 } pigment { G } rotate <20, 30, 10> translate x }",
 };
-enum { SCENE_COUNT = sizeof SCENES / sizeof *SCENES };
-
-static void test_pictures(void **state) {
-    (void)state;
-    compare_table(STAGE, SCENES, SCENE_COUNT, 0.005);
-}
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_pictures)};
-    return cmocka_run_group_tests_name("csg_povray", tests, NULL, NULL);
+    return povray_table_run(&(PovrayTable){.name = "csg_povray",
+                                           .stage = STAGE,
+                                           .scenes = SCENES,
+                                           .count = sizeof SCENES / sizeof *SCENES,
+                                           .share = 0.005});
 }

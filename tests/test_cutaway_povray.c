@@ -1,13 +1,6 @@
 // SPDX-License-Identifier: MIT
 // cutaway_textures against POV-Ray's pictures: which surfaces show what, how much of each, and what
 // shines through them.
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
-
 #include "tests/povray_table.h"
 
 static const char STAGE[] =
@@ -121,12 +114,10 @@ static const char *const SCENES[] = {
     " } } plane { y, 0.3 } cutaway_textures }",
 };
 
-static void test_pictures(void **state) {
-    (void)state;
-    compare_table(STAGE, SCENES, sizeof SCENES / sizeof *SCENES, 0.002);
-}
-
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_pictures)};
-    return cmocka_run_group_tests_name("cutaway_povray", tests, NULL, NULL);
+    return povray_table_run(&(PovrayTable){.name = "cutaway_povray",
+                                           .stage = STAGE,
+                                           .scenes = SCENES,
+                                           .count = sizeof SCENES / sizeof *SCENES,
+                                           .share = 0.002});
 }

@@ -1,13 +1,6 @@
 // SPDX-License-Identifier: MIT
 // no_image, no_reflection, no_shadow, hollow, double_illuminate and inverse in trees, against
 // POV-Ray's pictures: seen straight, through glass, in a mirror and by shadows.
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
-
 #include "tests/povray_table.h"
 
 static const char STAGE[] =
@@ -66,12 +59,10 @@ static const char *const SCENES[] = {
     " } translate x }",
 };
 
-static void test_pictures(void **state) {
-    (void)state;
-    compare_table(STAGE, SCENES, sizeof SCENES / sizeof *SCENES, 0.002);
-}
-
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_pictures)};
-    return cmocka_run_group_tests_name("flags_povray", tests, NULL, NULL);
+    return povray_table_run(&(PovrayTable){.name = "flags_povray",
+                                           .stage = STAGE,
+                                           .scenes = SCENES,
+                                           .count = sizeof SCENES / sizeof *SCENES,
+                                           .share = 0.002});
 }

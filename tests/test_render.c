@@ -11,6 +11,7 @@
 #include <cmocka.h>
 
 #include "base/diag.h"
+#include "option_line.h"
 #include "reference.h"
 #include "render/render.h"
 
@@ -62,21 +63,8 @@ static Scene *ball(Arena *arena) {
     return scene;
 }
 
-// The options of a line of switches, silent.
-static RenderOptions options_of(Arena *arena, const char *line) {
-    char *words[16] = {arena_strdup(arena, "qirender")}, *save = NULL;
-    int count = 1;
-    for (char *w = strtok_r(arena_strdup(arena, line), " ", &save); w;
-         w = strtok_r(NULL, " ", &save))
-        words[count++] = w;
-    RenderOptions o = options_default();
-    assert_true(options_parse(PROGRAM_QIRENDER, count, words, arena, &o));
-    o.verbose = false;
-    return o;
-}
-
 static Image *render_ball(Arena *arena, const char *line, RenderStats *stats) {
-    RenderOptions o = options_of(arena, line);
+    RenderOptions o = options_of_line(arena, line);
     ImageWriteOptions write;
     render_check(&o);
     return render_scene(ball(arena), &o, arena, &write, stats);
@@ -177,7 +165,7 @@ static void impossible_pictures(void **state) {
     };
     Arena *arena = arena_create();
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        RenderOptions o = options_of(arena, cases[i].line);
+        RenderOptions o = options_of_line(arena, cases[i].line);
         char *message = NULL;
         if (diag_catch(check_body, &o, &message))
             fail_msg("%s was taken", cases[i].line);
@@ -197,7 +185,7 @@ static uint64_t memory_of(Arena *arena, const char *line) {
     scene->objects[0].type = OBJECT_PATCH;
     scene->objects[0].shape.patch =
         (PatchShape){.degree_u = 3, .degree_v = 3, .points = points, .u_steps = 3, .v_steps = 3};
-    RenderOptions o = options_of(arena, line);
+    RenderOptions o = options_of_line(arena, line);
     ImageWriteOptions write;
     RenderStats stats = {0};
     render_scene(scene, &o, arena, &write, &stats);

@@ -34,8 +34,8 @@ void note_at(const Loc *loc, const char *format, ...) __attribute__((format(prin
 void diag_strict(bool on);
 void diag_verbose(bool on);
 void diag_quiet(bool on); // no warnings are printed (still counted); for tests
-void diag_program(
-    const char *name); // the prefix of messages without a place: "qirender: error: ..."
+// The prefix of messages without a place: "qirender: error: ..."
+void diag_program(const char *name);
 size_t diag_warning_count(void);
 
 // Runs body(arg). True if it returned; false if it died, and then *message (in the heap, to be

@@ -60,8 +60,8 @@ typedef struct {
 // About its control points, so about the patch.
 Box patch_shape_box(const PatchShape *patch);
 
-typedef struct { // { p : normal . p = distance }, world space; inside is the side normal points
-                 // from
+// { p : normal . p = distance }, world space; inside is the side that normal points from.
+typedef struct {
     Vec3 normal; // unit
     double distance;
 } PlaneShape;

@@ -196,8 +196,8 @@ typedef struct {
     uint32_t object_count;
     uint32_t *roots; // what stands at top level, in the order of the source
     uint32_t root_count;
-    uint32_t
-        *projections; // objects that are not in the picture: see Light.projection, Pattern.object
+    // Objects that are not in the picture: see Light.projection, Pattern.object.
+    uint32_t *projections;
     uint32_t projection_count;
     uint32_t *definitions; // trees that instances show, without instances in them
     uint32_t definition_count;

@@ -42,8 +42,8 @@ typedef struct {
 typedef struct {
     CsgNode *nodes;
     uint32_t count;
-    uint32_t
-        *of_object; // node of each object; NO_INDEX: an instance, or a patch that no tree can hide
+    // Node of each object; NO_INDEX: an instance, or a patch that no tree can hide.
+    uint32_t *of_object;
     ShapeShared *shared;
 } Csg;
 

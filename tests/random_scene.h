@@ -15,7 +15,4 @@ Scene *random_scene(Rng *rng, Arena *arena);
 // NULL if all members are the same, else the name of one that differs.
 const char *scene_difference(const Scene *a, const Scene *b);
 
-double random_double(Rng *rng); // of any size up to 1e60, signed zeros and denormals too
-float random_float(Rng *rng);   // any finite one
-
 #endif

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "tests/random_solid.h"
 
-#include "tests/random_scene.h"
+#include "tests/random_value.h"
 
 #include <string.h>
-
-static uint32_t below(Rng *rng, uint32_t limit) { return (uint32_t)(rng_next(rng) % limit); }
 
 static double *random_table(Rng *rng, Arena *arena, size_t count) {
     double *table = ARENA_ARRAY(arena, double, count);
@@ -21,23 +19,24 @@ static Vec3 random_point(Rng *rng) {
 
 static MeshFace random_face(Rng *rng, const Mesh *mesh) {
     MeshFace face;
-    bool smooth = below(rng, 2), mapped = below(rng, 2), textured = below(rng, 2);
+    bool smooth = random_below(rng, 2), mapped = random_below(rng, 2),
+         textured = random_below(rng, 2);
     for (int i = 0; i < 3; i++) {
-        face.p[i] = below(rng, mesh->point_count);
-        face.n[i] = smooth ? below(rng, mesh->normal_count) : NO_INDEX;
-        face.uv[i] = mapped ? below(rng, mesh->uv_count) : NO_INDEX;
-        face.texture[i] = textured ? below(rng, (uint32_t)mesh->texture_slots) : NO_INDEX;
+        face.p[i] = random_below(rng, mesh->point_count);
+        face.n[i] = smooth ? random_below(rng, mesh->normal_count) : NO_INDEX;
+        face.uv[i] = mapped ? random_below(rng, mesh->uv_count) : NO_INDEX;
+        face.texture[i] = textured ? random_below(rng, (uint32_t)mesh->texture_slots) : NO_INDEX;
     }
     return face;
 }
 
 static Mesh random_mesh(Rng *rng, Arena *arena) {
-    Mesh mesh = {.point_count = 3 + below(rng, 9),
-                 .normal_count = 1 + below(rng, 9),
-                 .uv_count = 1 + below(rng, 9),
-                 .face_count = 1 + below(rng, 9),
-                 .texture_slots = 1 + (int)below(rng, 3),
-                 .has_inside = below(rng, 2)};
+    Mesh mesh = {.point_count = 3 + random_below(rng, 9),
+                 .normal_count = 1 + random_below(rng, 9),
+                 .uv_count = 1 + random_below(rng, 9),
+                 .face_count = 1 + random_below(rng, 9),
+                 .texture_slots = 1 + (int)random_below(rng, 3),
+                 .has_inside = random_below(rng, 2)};
     mesh.points = random_table(rng, arena, 3 * (size_t)mesh.point_count);
     mesh.normals = random_table(rng, arena, 3 * (size_t)mesh.normal_count);
     mesh.uv = random_table(rng, arena, 2 * (size_t)mesh.uv_count);
@@ -63,16 +62,16 @@ static void put_function(Arena *arena, Scene *scene) {
 void random_pools(Rng *rng, Arena *arena, Scene *scene) {
     if (scene->function_count == 0)
         put_function(arena, scene);
-    scene->mesh_count = 1 + below(rng, 3);
+    scene->mesh_count = 1 + random_below(rng, 3);
     scene->meshes = ARENA_ARRAY(arena, Mesh, scene->mesh_count);
     for (uint32_t i = 0; i < scene->mesh_count; i++)
         scene->meshes[i] = random_mesh(rng, arena);
-    scene->height_map_count = 1 + below(rng, 2);
+    scene->height_map_count = 1 + random_below(rng, 2);
     scene->height_maps = ARENA_ARRAY(arena, HeightMap, scene->height_map_count);
     for (uint32_t i = 0; i < scene->height_map_count; i++) {
         HeightMap *map = &scene->height_maps[i];
-        map->width = 2 + (int)below(rng, 5);
-        map->depth = 2 + (int)below(rng, 5);
+        map->width = 2 + (int)random_below(rng, 5);
+        map->depth = 2 + (int)random_below(rng, 5);
         map->count = (uint32_t)(map->width * map->depth);
         map->heights = random_table(rng, arena, map->count);
     }
@@ -83,27 +82,27 @@ static void *random_rows(Rng *rng, Arena *arena, uint32_t count, size_t columns)
 }
 
 static void random_sor(Rng *rng, Arena *arena, SorShape *sor) {
-    sor->count = 4 + below(rng, 5);
+    sor->count = 4 + random_below(rng, 5);
     sor->points = random_rows(rng, arena, sor->count, 2);
     for (uint32_t i = 1; i < sor->count; i++)
         sor->points[i].v = sor->points[i - 1].v + rng_range(rng, 0.1, 1);
-    sor->open = below(rng, 2);
+    sor->open = random_below(rng, 2);
 }
 
 static void random_blob(Rng *rng, Arena *arena, const Scene *scene, BlobShape *blob) {
     blob->threshold = rng_unit(rng);
-    blob->count = below(rng, 5);
+    blob->count = random_below(rng, 5);
     blob->components = ARENA_ARRAY(arena, BlobComponent, blob->count);
     for (uint32_t i = 0; i < blob->count; i++) {
         Transform turn = transform_rotate(random_point(rng));
         blob->components[i] = (BlobComponent){
-            .cylinder = below(rng, 2),
+            .cylinder = random_below(rng, 2),
             .base = random_point(rng),
             .apex = random_point(rng),
             .radius = rng_unit(rng),
             .strength = rng_range(rng, -1, 1),
-            .texture = below(rng, 2) ? NO_INDEX : below(rng, scene->texture_count),
-            .has_transform = below(rng, 2),
+            .texture = random_below(rng, 2) ? NO_INDEX : random_below(rng, scene->texture_count),
+            .has_transform = random_below(rng, 2),
             .transform = transform_identity(),
         };
         if (blob->components[i].has_transform)
@@ -113,21 +112,21 @@ static void random_blob(Rng *rng, Arena *arena, const Scene *scene, BlobShape *b
 
 static void random_text(Rng *rng, Arena *arena, TextShape *text) {
     text->thickness = rng_unit(rng);
-    text->arc_count = 1 + below(rng, 9);
+    text->arc_count = 1 + random_below(rng, 9);
     text->arcs = random_rows(rng, arena, text->arc_count, 6);
-    text->letter_count = 1 + below(rng, 4);
+    text->letter_count = 1 + random_below(rng, 4);
     text->letters = ARENA_ARRAY(arena, uint32_t, text->letter_count);
     for (uint32_t i = 1; i < text->letter_count; i++)
         text->letters[i] =
-            text->letters[i - 1] + below(rng, text->arc_count - text->letters[i - 1] + 1);
+            text->letters[i - 1] + random_below(rng, text->arc_count - text->letters[i - 1] + 1);
 }
 
 static void random_mesh_shape(Rng *rng, Arena *arena, const Scene *scene, MeshShape *shape) {
-    shape->mesh = below(rng, scene->mesh_count);
+    shape->mesh = random_below(rng, scene->mesh_count);
     shape->texture_count = (uint32_t)scene->meshes[shape->mesh].texture_slots;
     shape->textures = ARENA_ARRAY(arena, uint32_t, shape->texture_count);
     for (uint32_t i = 0; i < shape->texture_count; i++)
-        shape->textures[i] = below(rng, scene->texture_count);
+        shape->textures[i] = random_below(rng, scene->texture_count);
 }
 
 // A function that such a surface can have; NO_INDEX: the scene has none.
@@ -139,7 +138,7 @@ static uint32_t function_of_three(const Scene *scene) {
 }
 
 static Container random_container(Rng *rng) {
-    return (Container){.in_sphere = below(rng, 2),
+    return (Container){.in_sphere = random_below(rng, 2),
                        .low = vec3(-1, -2, -rng_unit(rng)),
                        .high = vec3(1, 2, rng_unit(rng)),
                        .center = random_point(rng),
@@ -152,24 +151,24 @@ static void random_isosurface(Rng *rng, uint32_t function, Object *object) {
                                                  .threshold = rng_unit(rng),
                                                  .accuracy = rng_range(rng, 0.1, 1),
                                                  .max_gradient = rng_range(rng, 0.1, 9),
-                                                 .max_trace = 1 + (int)below(rng, 10),
-                                                 .open = below(rng, 2),
-                                                 .evaluate = below(rng, 2),
+                                                 .max_trace = 1 + (int)random_below(rng, 10),
+                                                 .open = random_below(rng, 2),
+                                                 .evaluate = random_below(rng, 2),
                                                  .evaluate_from = rng_unit(rng),
                                                  .evaluate_over = rng_unit(rng),
                                                  .evaluate_fall = rng_unit(rng)};
 }
 
 static void random_parametric(Rng *rng, uint32_t function, Object *object) {
-    object->shape.parametric =
-        (ParametricShape){.functions = {function, function, function},
-                          .low = {-rng_unit(rng), -rng_unit(rng)},
-                          .high = {rng_unit(rng), rng_unit(rng)},
-                          .container = random_container(rng),
-                          .accuracy = rng_range(rng, 0.1, 1),
-                          .max_gradient = rng_range(rng, 0.1, 9),
-                          .precompute = {below(rng, 2), below(rng, 2), below(rng, 2)},
-                          .depth = 1 + (int)below(rng, 8)};
+    object->shape.parametric = (ParametricShape){
+        .functions = {function, function, function},
+        .low = {-rng_unit(rng), -rng_unit(rng)},
+        .high = {rng_unit(rng), rng_unit(rng)},
+        .container = random_container(rng),
+        .accuracy = rng_range(rng, 0.1, 1),
+        .max_gradient = rng_range(rng, 0.1, 9),
+        .precompute = {random_below(rng, 2), random_below(rng, 2), random_below(rng, 2)},
+        .depth = 1 + (int)random_below(rng, 8)};
 }
 
 static void random_function_surface(Rng *rng, const Scene *scene, Object *object) {
@@ -192,11 +191,11 @@ void random_solid(Rng *rng, Arena *arena, const Scene *scene, Object *object) {
         break;
     case OBJECT_POLY: {
         PolyShape *poly = &object->shape.poly;
-        poly->order = 2 + (int)below(rng, 3);
+        poly->order = 2 + (int)random_below(rng, 3);
         uint32_t n = (uint32_t)poly->order;
         poly->count = (n + 1) * (n + 2) * (n + 3) / 6;
         poly->coefficients = random_table(rng, arena, poly->count);
-        poly->sturm = below(rng, 2);
+        poly->sturm = random_below(rng, 2);
         break;
     }
     case OBJECT_SUPERELLIPSOID:
@@ -204,27 +203,27 @@ void random_solid(Rng *rng, Arena *arena, const Scene *scene, Object *object) {
             (SuperellipsoidShape){rng_range(rng, 0.1, 3), rng_range(rng, 0.1, 3)};
         break;
     case OBJECT_LATHE:
-        object->shape.lathe.outline = (OutlineType)below(rng, 4);
-        object->shape.lathe.count = 4 * (1 + below(rng, 3));
+        object->shape.lathe.outline = (OutlineType)random_below(rng, 4);
+        object->shape.lathe.count = 4 * (1 + random_below(rng, 3));
         object->shape.lathe.points = random_rows(rng, arena, object->shape.lathe.count, 2);
         break;
     case OBJECT_SOR:
         random_sor(rng, arena, &object->shape.sor);
         break;
     case OBJECT_PRISM:
-        object->shape.prism = (PrismShape){.outline = (OutlineType)below(rng, 4),
-                                           .conic = below(rng, 2),
-                                           .open = below(rng, 2),
+        object->shape.prism = (PrismShape){.outline = (OutlineType)random_below(rng, 4),
+                                           .conic = random_below(rng, 2),
+                                           .open = random_below(rng, 2),
                                            .low = rng_unit(rng),
                                            .high = rng_unit(rng) + 1,
-                                           .count = 4 * (1 + below(rng, 3))};
+                                           .count = 4 * (1 + random_below(rng, 3))};
         object->shape.prism.points = random_rows(rng, arena, object->shape.prism.count, 2);
         break;
     case OBJECT_SPHERE_SWEEP: {
         static const OutlineType kinds[] = {OUTLINE_LINEAR, OUTLINE_CUBIC, OUTLINE_B_SPLINE};
         SphereSweepShape *sweep = &object->shape.sphere_sweep;
-        sweep->outline = kinds[below(rng, 3)];
-        sweep->count = 4 + below(rng, 4);
+        sweep->outline = kinds[random_below(rng, 3)];
+        sweep->count = 4 + random_below(rng, 4);
         sweep->spheres = random_rows(rng, arena, sweep->count, 4);
         sweep->tolerance = rng_unit(rng);
         break;
@@ -242,15 +241,15 @@ void random_solid(Rng *rng, Arena *arena, const Scene *scene, Object *object) {
         }
         break;
     case OBJECT_POLYGON:
-        object->shape.polygon.count = 3 + below(rng, 5);
+        object->shape.polygon.count = 3 + random_below(rng, 5);
         object->shape.polygon.points = random_rows(rng, arena, object->shape.polygon.count, 3);
         break;
     case OBJECT_MESH:
         random_mesh_shape(rng, arena, scene, &object->shape.mesh);
         break;
     case OBJECT_HEIGHT_FIELD:
-        object->shape.height_field =
-            (HeightFieldShape){below(rng, scene->height_map_count), rng_unit(rng), below(rng, 2)};
+        object->shape.height_field = (HeightFieldShape){random_below(rng, scene->height_map_count),
+                                                        rng_unit(rng), random_below(rng, 2)};
         break;
     case OBJECT_TEXT:
         random_text(rng, arena, &object->shape.text);

@@ -13,6 +13,7 @@
 #include "model/file_path.h"
 #include "model/json_layout.h"
 #include "random_scene.h"
+#include "random_value.h"
 #include "scene_file.h"
 
 #include <stdio.h>

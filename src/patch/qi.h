@@ -13,6 +13,8 @@
 //     counts all rounding; the control points and the ray count as exact.
 //   - No crossing inside the rectangle, its sides included, is missed. A ray that passes within
 //     the tolerance of the surface without crossing it may or may not be reported.
+//   - Of crossings whose depths rounding cannot tell apart, within R of each other along the ray,
+//     any may be the nearest.
 //   - One crossing is one hit, also where search pieces meet, at collapsed edges and at corners.
 //     Two crossings that the tolerance cannot tell apart (the two sides of a fold that the ray
 //     leaves by less than the tolerance) may be reported as one.

@@ -233,6 +233,13 @@ double qi_list_z_high(const QiList *list, const QiFrame *frame) {
     return list->mode == QI_NEAREST && list->count ? list->found[0].z : frame->z_high;
 }
 
+// Within three roundings along the ray: a depth errs by one slack of z, and the bound of a piece's
+// roots is at 2 slacks of z, and of the forms, before what was computed (qi_reduce.c).
+bool qi_list_no_nearer(const QiList *list, const QiFrame *frame, double z) {
+    return list->mode == QI_NEAREST && list->count > 0 &&
+           z >= list->found[0].z - 3.0 * frame->rounding / frame->stretch;
+}
+
 // z_low lies a slack before the range, and a depth errs by one.
 static bool is_first(const QiFound *found, const QiFrame *frame) {
     return found->z <= frame->z_low + 2.0 * frame->slack_z;

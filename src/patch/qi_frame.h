@@ -62,6 +62,10 @@ typedef struct {
 void qi_list_add(QiList *list, QiFound found);
 // Depth beyond which nothing is of interest any more.
 double qi_list_z_high(const QiList *list, const QiFrame *frame);
+// Is a root at that depth, or behind, as far as rounding can tell no nearer than the hit found? Of
+// a ribbon across the ray, thinner than its rounding, all roots have one depth: to look for the
+// least would follow the curve they are on to the last bit.
+bool qi_list_no_nearer(const QiList *list, const QiFrame *frame, double z);
 // QI_ANY has its hit; the hit of QI_NEAREST is as near to the range's begin as rounding can tell.
 bool qi_list_done(const QiList *list, const QiFrame *frame);
 // Of points on the ray at depths from `low` to `high`: are all that count within `radius` of one

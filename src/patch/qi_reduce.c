@@ -447,7 +447,8 @@ static inline bool finish_singular(Search *q, int count, const Piece *p, bool le
     const QiForm *f = p->forms;
     double radius = q->steps <= PATIENCE ? frame->least_tolerance : frame->tolerance;
     Span at = root_depths(q, p);
-    if (at.high < frame->z_low || at.low > qi_list_z_high(&q->target.list, frame))
+    if (at.high < frame->z_low || at.low > qi_list_z_high(&q->target.list, frame) ||
+        qi_list_no_nearer(&q->target.list, frame, at.low))
         return true;
     if (!p->regular && p->bounds[0].slope < fmin(fabs(f[0].au), fabs(f[0].av)) &&
         weak_form(&p->net, count, f[1], 16.0 * form_slack(f[1], frame)) &&

@@ -70,7 +70,4 @@ void function_fold(Converter *cv, Expr *e);
 // The program of a formula, in *out; also its levels of calls.
 int function_compile(const FunctionReader *reader, const Expr *body, Function *out);
 
-// The pigment or pattern number i of the functions declared so far.
-const struct PatternNode *function_pigment(const Converter *cv, uint32_t i);
-
 #endif

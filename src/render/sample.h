@@ -9,8 +9,6 @@
 
 #include <stdint.h>
 
-enum { SAMPLE_MAX_DEPTH = 9 };
-
 typedef struct {
     int method;               // 0: the middle of each pixel; 1, 2: POV-Ray's sampling methods
     int depth;                // 1..9

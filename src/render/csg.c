@@ -108,15 +108,16 @@ static void narrow_to_faces(Maker *maker, CsgNode *node) {
     node->reach = box_common(node->reach, all);
 }
 
-// What is within all of a list of shapes. Twice: planes at the end of the list bound quadrics at
-// its beginning.
+// What is within all of a list of shapes: planes first, since they bound the quadrics; and those
+// twice, since they bound one another.
 static void narrow(const Maker *maker, CsgNode *node, uint32_t list) {
     PlaneShape planes[SHAPE_MOST_PLANES];
     uint32_t members[SHAPE_MOST_PLANES], count = find_planes(maker, list, planes, members);
-    for (int round = 0; round < 2; round++) {
+    for (int round = 0; round < 3; round++) {
         for (uint32_t c = list; c != NO_INDEX; c = maker->nodes.items[c].next) {
             const Shape *shape = maker->nodes.items[c].shape;
-            if (!shape || !maker->nodes.items[c].solid)
+            if (!shape || !maker->nodes.items[c].solid ||
+                (shape->kind == SHAPE_PLANE) != (round == 0))
                 continue;
             node->inside = shape_within_planes(shape, planes, count, node->inside);
             node->reach = shape_within_planes(shape, planes, count, node->reach);

@@ -174,6 +174,13 @@ static Box rows_box(const double *rows, uint32_t count) {
     return box;
 }
 
+// Of the points as POV-Ray keeps them.
+static Box mesh_box(const Mesh *mesh) {
+    Box box = rows_box(mesh->points, mesh->point_count);
+    return (Box){vec3((float)box.low.x, (float)box.low.y, (float)box.low.z),
+                 vec3((float)box.high.x, (float)box.high.y, (float)box.high.z)};
+}
+
 static Box height_box(const HeightFieldShape *field, const HeightMap *map) {
     double low = INFINITY, high = -INFINITY;
     for (uint32_t i = 0; i < map->count; i++) {
@@ -233,7 +240,7 @@ Box solid_extent(const ObjectNode *node) {
     case OBJECT_POLYGON:
         return rows_box(&object->shape.polygon.points->x, object->shape.polygon.count);
     case OBJECT_MESH:
-        return rows_box(node->mesh->points, node->mesh->point_count);
+        return mesh_box(node->mesh);
     case OBJECT_HEIGHT_FIELD:
         return height_box(&object->shape.height_field, node->map);
     case OBJECT_ISOSURFACE:

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
-// mesh and mesh2 (facts: sdl 4.2). Points and normals are kept in single precision, as POV-Ray
-// keeps them; textures stay with the object, since its transforms move them.
+// mesh and mesh2 (facts: sdl 4.2). Normals, and the points of mesh2, are kept in single precision,
+// as POV-Ray keeps them; of a mesh it takes the planes of the triangles before it rounds the
+// points, so those stay as they were written. Textures stay with the object, since its transforms
+// move them.
 #include "converter/nodes.h"
 
 #include <math.h>
@@ -19,10 +21,14 @@ typedef struct {
 static const double NO_LENGTH = 1e-10;
 
 static uint32_t put_vec3(Doubles *list, Vec3 v) {
-    array_push(list, (double)(float)v.x);
-    array_push(list, (double)(float)v.y);
-    array_push(list, (double)(float)v.z);
+    array_push(list, v.x);
+    array_push(list, v.y);
+    array_push(list, v.z);
     return (uint32_t)(list->count / 3 - 1);
+}
+
+static uint32_t put_single(Doubles *list, Vec3 v) {
+    return put_vec3(list, vec3((float)v.x, (float)v.y, (float)v.z));
 }
 
 static uint32_t put_normal(Converter *cv, MeshReader *r, Vec3 n, const Token *token) {
@@ -31,7 +37,7 @@ static uint32_t put_normal(Converter *cv, MeshReader *r, Vec3 n, const Token *to
         warn_at(&loc, "a normal of the mesh has no length: <1, 0, 0> takes its place");
         n = vec3(1, 0, 0);
     }
-    return put_vec3(&r->normals, vec_normalize(n));
+    return put_single(&r->normals, vec_normalize(n));
 }
 
 static uint32_t put_uv(MeshReader *r, Vec2 uv) {
@@ -184,7 +190,7 @@ static void parse_vectors(Converter *cv, MeshReader *r, const Token *list) {
     for (uint32_t i = 0; i < count; i++) {
         const Token *token = peek_token(cv);
         if (list->code == KW_vertex_vectors)
-            put_vec3(&r->points, parse_vector(cv));
+            put_single(&r->points, parse_vector(cv));
         else if (list->code == KW_normal_vectors)
             put_normal(cv, r, parse_vector(cv), token);
         else

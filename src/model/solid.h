@@ -118,7 +118,7 @@ typedef struct {
 
 // A pool of the scene, since many objects may show the same mesh.
 typedef struct {
-    double *points; // rows of three; POV-Ray keeps single precision, and so do these
+    double *points; // rows of three; the faces' planes are theirs, the corners are rounded to float
     uint32_t point_count;
     double *normals; // rows of three, unit
     uint32_t normal_count;

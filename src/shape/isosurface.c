@@ -78,7 +78,8 @@ static double leave_surface(Search *s, double from, bool near) {
     return next;
 }
 
-// The container's own surface where the solid is cut by it; returns how many were put in front.
+// The container's own surface where the solid is cut by it; returns how many were put in front. A
+// ray that begins closer to the end than is left of it has no hit at all.
 static int close_ends(Search *s, double *from, double to, const int part[2], HitSink *sink) {
     const Vec3 none = {0, 0, 0};
     double at = value_on(s, *from);
@@ -90,7 +91,7 @@ static int close_ends(Search *s, double *from, double to, const int part[2], Hit
         return 1;
     }
     *from = leave_surface(s, *from, at < 4.0 * s->gradient * s->accuracy);
-    if (value_on(s, to) < 0.0)
+    if (to - *from >= s->accuracy && value_on(s, to) < 0.0)
         sink_put(sink, to, part[1], none);
     return 0;
 }

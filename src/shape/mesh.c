@@ -18,10 +18,14 @@ typedef struct {
     bool solid;
 } MeshData;
 
-static Vec3 point_of(const double *rows, uint32_t index) {
+static Vec3 row_of(const double *rows, uint32_t index) {
     const double *p = rows + 3 * (size_t)index;
-    return vec3((float)p[0], (float)p[1], (float)p[2]);
+    return vec3(p[0], p[1], p[2]);
 }
+
+static Vec3 to_single(Vec3 v) { return vec3((float)v.x, (float)v.y, (float)v.z); }
+
+static Vec3 point_of(const double *rows, uint32_t index) { return to_single(row_of(rows, index)); }
 
 typedef struct {
     const MeshData *data;
@@ -120,18 +124,25 @@ static bool is_smooth(const Mesh *mesh, const MeshFace *face) {
     return vec_dot(a, a) > SHAPE_EPSILON || vec_dot(b, b) > SHAPE_EPSILON;
 }
 
+// POV-Ray takes the plane from the points as they were written, and rounds it and them apart: far
+// from the origin the plane of a small triangle is that of its rounded points only to a few digits.
 static bool make_triangle(const Mesh *mesh, const MeshFace *face, Triangle *out) {
     Vec3 p[3];
     for (int i = 0; i < 3; i++)
-        p[i] = point_of(mesh->points, face->p[i]);
+        p[i] = row_of(mesh->points, face->p[i]);
     Vec3 n = vec_cross(vec_sub(p[2], p[0]), vec_sub(p[1], p[0]));
     double length = vec_length(n);
     if (!(length > 0.0) || !isfinite(length) || !isfinite(1.0 / length))
         return false;
     n = vec_scale(n, 1.0 / length);
-    n = vec3((float)n.x, (float)n.y, (float)n.z);
+    double distance = (float)vec_dot(n, p[0]);
+    for (int i = 0; i < 3; i++)
+        p[i] = to_single(p[i]);
     *out = (Triangle){.face = face, .smooth = is_smooth(mesh, face)};
-    return facet_make(&out->facet, p, n);
+    if (!facet_make(&out->facet, p, to_single(n)))
+        return false;
+    out->facet.distance = distance;
+    return true;
 }
 
 SolidData mesh_prepare(const Mesh *mesh, Arena *arena) {

@@ -107,6 +107,13 @@ static bool parse_strength(Converter *cv, Finish *finish, Albedo *albedo, int co
     }
 }
 
+static void warn_rough(Converter *cv, const Token *token, float roughness) {
+    if (roughness != 0.0F)
+        return;
+    Loc loc = token_loc(cv, token);
+    warn_at(&loc, "a roughness of 0: the highlight covers all that is lit");
+}
+
 static bool parse_number(Converter *cv, FinishNode *node, int code) {
     Finish *finish = &node->finish;
     if (code == KW_reflection_exponent) {
@@ -140,8 +147,10 @@ static bool parse_number(Converter *cv, FinishNode *node, int code) {
     default:
         return false;
     }
-    next_token(cv);
+    const Token *token = next_token(cv);
     *to = number(cv);
+    if (code == KW_roughness)
+        warn_rough(cv, token, finish->roughness);
     return true;
 }
 
@@ -193,7 +202,7 @@ static void apply_albedo(Finish *finish, const Albedo *albedo) {
     if (albedo->phong)
         finish->phong = (float)(finish->phong * (finish->phong_size + 1.0) / 2.0);
     if (albedo->specular) {
-        double n = 1.0 / finish->roughness;
+        double n = finish->roughness != 0.0F ? 1.0 / finish->roughness : 0.0;
         finish->specular =
             (float)(finish->specular * (n + 2.0) / (4.0 * (2.0 - pow(2.0, -n / 2.0))));
     }

@@ -132,12 +132,21 @@ static void trees_are_copied_when_changed(void **state) {
         assert_vec(child(s, root(s, i), 1)->shape.patch.points[15], 3 + x, 3 + y, 1);
         assert_vec(s->lights[i].location, x, 1 + y, 0);
     }
-    // A tree that grows by itself is deep; one without an end is refused.
+    // A tree that grows by itself is deep; one without an end is refused. One of unions may be as
+    // deep as it likes: before, it was refused too.
     scene_of("#declare A = sphere { 0, 1 } #declare I = 0; #while (I < 900)"
              "#declare A = union { object { A } sphere { I, 1 } } #declare I = I + 1; #end "
              "object { A translate x }");
+    s = scene_of("#declare A = sphere { 0, 1 } #declare I = 0; #while (I < 1200)"
+                 "#declare A = union { object { A } sphere { I*x, 1 } translate x }"
+                 "#declare I = I + 1; #end A");
+    uint32_t spheres = 0;
+    for (uint32_t i = 0; i < s->object_count; i++)
+        if (s->objects[i].type == OBJECT_SPHERE)
+            assert_vec(s->objects[i].shape.sphere.center, 1200, 0, 0), spheres++;
+    assert_int_equal(spheres, 1201);
     assert_dies("#declare A = sphere { 0, 1 } #declare I = 0; #while (I < 1500)"
-                "#declare A = union { object { A } sphere { I, 1 } } #declare I = I + 1; #end A",
+                "#declare A = merge { object { A } sphere { I, 1 } } #declare I = I + 1; #end A",
                 "1000 objects inside one another");
 }
 

@@ -57,6 +57,8 @@ static const Bad BAD[] = {
             "#for (I, 1, 900) #declare S = difference { object { S } sphere { 9, 1 } } #end S\n",
      "+W4 +H3", 0, ""},
     {"nothing to see", CAMERA, NULL, 1, "no objects"},
+    // The first frames of an animation may be empty; before, no picture was written.
+    {"only a light", CAMERA "light_source { 9, 1 }\n", "+W4 +H3", 0, "no objects"},
     {"only a sky", "sky_sphere { pigment { rgb 1 } }\n", NULL, 0, "no objects"},
     {"width 0", CAMERA, "+W0 +H12", 1, "must be at least 1"},
     {"too large", CAMERA, "+W1000000 +H1000000", 1, "1000000"},

@@ -170,9 +170,6 @@ static const struct {
     {HEAD "\"textures\": [{\"type\": \"bozo\", \"map\": [{\"value\": 0, \"texture\": 0}]}]}",
      "texture 0 is part of itself"},
     {HEAD "\"textures\": [{\"type\": \"checker\", \"map\": []}]}", "textures[0].map: it is empty"},
-    {HEAD PIGMENTS
-     "\"textures\": [{\"layers\": [{\"pigment\": 0, \"finish\": {\"roughness\": 0}}]}]}",
-     "textures[0].layers[0].finish.roughness: 0 has no reciprocal"},
     {HEAD "\"textures\": [{\"layers\": [{\"pigment\": -1}]}]}",
      "textures[0].layers[0].pigment: -1 is not in the range"},
     {HEAD "\"sky_sphere\": {}}", "sky_sphere: it has no pigments"},

@@ -131,12 +131,15 @@ static void print_statistics(const RenderOptions *o, const RenderStats *s, doubl
 
 // ---- main ----------------------------------------------------------------------------------
 
-// POV-Ray renders a scene without objects: a sky may be all that is wanted. Where there is not even
-// that, the picture would be black, and the file is not what its author thinks it is.
+// POV-Ray renders a scene without objects: a sky may be all that is wanted, or the objects of an
+// animation come later. Where there is not even a light the file is not what its author thinks it
+// is; mostly one that is to be included.
 static void check_not_empty(const Scene *scene, const char *file) {
     const Color *b = &scene->settings.background;
-    if (scene->root_count == 0 && !scene->has_sky_sphere && b->r == 0 && b->g == 0 && b->b == 0)
-        die("'%s' shows no objects, no sky_sphere and no background: there is nothing to render",
+    if (scene->root_count == 0 && scene->light_count == 0 && !scene->has_sky_sphere && b->r == 0 &&
+        b->g == 0 && b->b == 0)
+        die("'%s' shows no objects, no lights, no sky_sphere and no background: there is nothing "
+            "to render; is it to be included by another file?",
             file);
 }
 

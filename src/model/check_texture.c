@@ -418,12 +418,12 @@ static void check_finish(const Check *c, const FieldPath *path, const Finish *f)
     check_float(c, path, "phong", f->phong);
     check_float(c, path, "phong_size", f->phong_size);
     check_float(c, path, "specular", f->specular);
-    check_not_zero(c, path, "roughness", f->roughness);
+    check_float(c, path, "roughness", f->roughness);
     check_float(c, path, "metallic", f->metallic);
     check_rgb(c, path, "reflection_min", f->reflection_min);
     check_rgb(c, path, "reflection_max", f->reflection_max);
     check_float(c, path, "reflection_falloff", f->reflection_falloff);
-    check_not_zero(c, path, "reflection_exponent", f->reflection_exponent);
+    check_float(c, path, "reflection_exponent", f->reflection_exponent);
     check_float(c, path, "reflection_metallic", f->reflection_metallic);
     check_float(c, path, "irid", f->irid);
     check_float(c, path, "irid_thickness", f->irid_thickness);

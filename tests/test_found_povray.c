@@ -1,13 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What was found in scenes of others: each text once came out otherwise than POV-Ray's picture of
 // it.
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
-
 #include "tests/povray_table.h"
 
 static const char STAGE[] = "#declare Eye = camera { location <0, 1, -4> right 4/3*x look_at 0 }\n"
@@ -43,12 +36,10 @@ static const char *const SCENES[] = {
     "object { U rotate 20*x }",
 };
 
-static void test_found(void **state) {
-    (void)state;
-    compare_table(STAGE, SCENES, sizeof SCENES / sizeof *SCENES, 0.001);
-}
-
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_found)};
-    return cmocka_run_group_tests_name("found_povray", tests, NULL, NULL);
+    return povray_table_run(&(PovrayTable){.name = "found_povray",
+                                           .stage = STAGE,
+                                           .scenes = SCENES,
+                                           .count = sizeof SCENES / sizeof *SCENES,
+                                           .share = 0.001});
 }

@@ -191,10 +191,13 @@ static double net_rounding(const Bezier *whole) { return 8.0 * bezier_rounding(w
 
 // Upwards, with room for the rounding of differences of points that are off by `error`, and for
 // PIECE_MARGIN = m: outside of [0,1] by m the Bernstein weights' absolute values sum up to
-// (1 + 2 m)^n, for 16 twice that is below 1 + 2^-13.
+// (1 + 2 m)^n, for 16 twice that is below 1 + 2^-13. A float rounds by less than that, too, unless
+// it is denormal: of a patch of size 1e-40 it may come out as a tenth, or as 0.
 static float bound_up(double bound, double error) {
     double up = (bound + error) * (1.0 + 0x1p-12) + DBL_MIN;
-    return up < (double)FLT_MAX ? (float)up : INFINITY;
+    if (!(up < (double)FLT_MAX))
+        return INFINITY;
+    return up < (double)FLT_MIN ? (float)up + FLT_TRUE_MIN : (float)up;
 }
 
 // What is to be known of a piece besides its frame.

@@ -314,7 +314,7 @@ static double follow_surface(Leaving *l) {
 // the shorter times 1 / sine between them: but only across the longer tangent e, since it is made
 // square to e, which is known far better. Second derivatives are taken across e as well.
 static double second_order(const Leaving *l, Vec3 normal) {
-    double b = l->bound, curvature = 1.0; // at least: a patch is no longer than it is
+    double b = l->bound, curvature = 0.0;
     double du = 0.0, dv = 0.0, terms = 0.0;
     BezierJet jet;
     jet_at(l, l->u, l->v, &jet);
@@ -328,11 +328,13 @@ static double second_order(const Leaving *l, Vec3 normal) {
     Vec3 flat = vec_madd(l->dir, -sine, normal);
     sine = fabs(sine);
     if (vec_length(flat) > 0.0 && parameters_of(&jet, vec_normalize(flat), &du, &dv))
-        curvature = fmax(curvature, normal_curvature(&jet, normal, longer, du, dv, &terms));
+        curvature = normal_curvature(&jet, normal, longer, du, dv, &terms);
     double roundings = 16.0 * (l->patch.du + l->patch.dv) * DBL_EPSILON, way = fabs(du) + fabs(dv);
     double off = roundings * (u + v) / plane, error = off * terms + 4.0 * roundings * way * way;
-    double t = sine * sine >= 4.0 * (curvature + error) * b ? 2.0 * b / sine : -1.0;
-    if (t < 0.0 && error <= 0.125 * curvature)
+    // In the first case it may be no more than that, and is taken for 1 at least, so that the third
+    // order is little beside it; in the second it must be that much.
+    double t = sine * sine >= 4.0 * (fmax(curvature, 1.0) + error) * b ? 2.0 * b / sine : -1.0;
+    if (t < 0.0 && curvature >= 1.0 && error <= 0.125 * curvature)
         t = 4.5 * sqrt(b / curvature);
     // And b moves (u,v), beside the way to t.
     bool certain =

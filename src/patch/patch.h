@@ -109,7 +109,10 @@ bool patchset_intersect_leaving(const PatchSet *set, const Ray *ray, double t_ma
 // of the surface that it leaves: to be its t_min. Derived from the hit's bound: what lies before is
 // within ten bounds of the ray all the way from its start (clearance.c), so a sheet farther away
 // than that is never lost. def: the patch that was hit. Less than 1 us; where the surface has to be
-// followed, beside folds of very long ribbons, 20 us and up to some 1,000.
+// followed (along rulings, beside folds of very long ribbons), 20 us and up to some 1,000.
+// Where surfaces meet, a neighbour may be found from there on, another sheet, or the same one with
+// a larger bound. Of the rest of the ray, that begins there, ask for the clearance of such a hit:
+// one that lies before it is still what is left, and the ray is clear from there on.
 double patch_clearance(const PatchDef *def, const PatchHit *hit, const Ray *ray);
 // Is there any?
 bool patchset_occluded(const PatchSet *set, const Ray *ray, double t_min, double t_max,

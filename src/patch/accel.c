@@ -7,17 +7,28 @@
 #include "patch/walk.h"
 
 // Does the surface, on the way from one to the other, leave the ray by more than the tolerance?
-static bool apart(const PatchRay *ray, const WalkSeen *a, const WalkSeen *b) {
+static bool leaves_ray(const PatchRay *ray, const double from[2], const double to[2]) {
     enum { PARTS = 8 };
     double reach = ray->patch->tolerance + 4.0 * ray->error;
-    for (int n = 1; n < PARTS; n++) {
+    for (int n = 0; n <= PARTS; n++) {
         double at = (double)n / PARTS;
         Vec3 s[3];
-        piece_eval(ray->patch, a->u + at * (b->u - a->u), a->v + at * (b->v - a->v), s);
+        piece_eval(ray->patch, from[0] + at * (to[0] - from[0]), from[1] + at * (to[1] - from[1]),
+                   s);
         if (vec_length(vec_cross(vec_sub(s[0], ray->org), ray->dir)) > reach)
             return true;
     }
     return false;
+}
+
+// On the straight way, and with one parameter after the other: two sides that are one point are
+// joined by their corner.
+static bool apart(const PatchRay *ray, const WalkSeen *a, const WalkSeen *b) {
+    const double from[2] = {a->u, a->v}, to[2] = {b->u, b->v};
+    const double u_first[2] = {b->u, a->v}, v_first[2] = {a->u, b->v};
+    return leaves_ray(ray, from, to) &&
+           (leaves_ray(ray, from, u_first) || leaves_ray(ray, u_first, to)) &&
+           (leaves_ray(ray, from, v_first) || leaves_ray(ray, v_first, to));
 }
 
 // The same crossing found from two pieces? Both are right within their errors. Where the surface

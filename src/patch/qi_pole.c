@@ -178,9 +178,14 @@ bool qi_pole_settle(QiTarget *q, unsigned poles, const QiNet *net, BezierRect re
     int pole = (sides & 2 ? q->du * (q->dv + 1) : 0) + (sides & 8 ? q->dv : 0);
     if (!alone(q, net, sides, pole))
         return false;
+    // Where two sides are that point each piece at either finds it, and no rectangle but the corner
+    // holds points of both sides alone: one that holds more would take in the crossings beside it.
+    const BezierRect nowhere = {2.0, 2.0, 2.0, 2.0};
+    double slack = 4.0 * q->frame.slack_z, low = net->z[pole] - slack, high = net->z[pole] + slack;
+    if (qi_list_has(&q->list, &q->frame, low, high, q->frame.tolerance, nowhere))
+        return true;
     BezierRect at = {sides & 3 ? u : rect.u0, sides & 3 ? u : rect.u1, sides & 12 ? v : rect.v0,
                      sides & 12 ? v : rect.v1};
-    bool single = (sides & (sides - 1)) == 0;
-    qi_root_settle_at(q, single ? at : rect, u, v);
+    qi_root_settle_at(q, at, u, v);
     return true;
 }

@@ -30,6 +30,12 @@ typedef struct {
 } Tally;
 
 typedef struct {
+    StressRay ray; // t_min = t_max = 0: none
+    bool found, any;
+    PatchHit hit;
+} Kept;
+
+typedef struct {
     const StressOptions *options;
     const StressCase *which;
     uint64_t number; // of the scene
@@ -37,9 +43,7 @@ typedef struct {
     PatchSet *sets[METHODS];
     Tally *tally; // one a method
     // Of each ray, as qi answers it on the instruction set that was asked for.
-    StressRay *rays;
-    PatchHit *first; // t NaN: none
-    bool *first_any;
+    Kept *kept;
 } Stage;
 
 StressOptions stress_options_default(void) {
@@ -123,13 +127,8 @@ static const char *const isas[] = {"scalar", "avx2", "avx512"};
 
 static void keep(const Stage *stage, int method, uint64_t ray, const StressRay *r,
                  const StressAnswer *a) {
-    if (method != METHOD_QI || !stage->first)
-        return;
-    stage->rays[ray] = *r;
-    stage->first[ray] = a->hit;
-    if (!a->found)
-        stage->first[ray].t = NAN;
-    stage->first_any[ray] = a->any;
+    if (method == METHOD_QI && stage->kept)
+        stage->kept[ray] = (Kept){*r, a->found, a->any, a->hit};
 }
 
 static bool same_bits(const PatchHit *a, const PatchHit *b) {
@@ -138,31 +137,78 @@ static bool same_bits(const PatchHit *a, const PatchHit *b) {
     return memcmp(x, y, sizeof x) == 0 && a->id == b->id;
 }
 
+static bool same_answer(const Kept *kept, bool found, const PatchHit *hit, bool any) {
+    return found == kept->found && (!found || same_bits(hit, &kept->hit)) && any == kept->any;
+}
+
+static void count_bits(const Stage *stage, const char *how, uint64_t ray) {
+    uint64_t bits;
+#pragma omp atomic capture
+    bits = ++stage->tally[METHOD_QI].bits;
+    if (bits == 1)
+        printf("%s differs on %s and %s: scene %llu ray %llu\n", stage->which->name,
+               patch_isa_name(), how, (unsigned long long)stage->number, (unsigned long long)ray);
+}
+
 // All rays of the scene once more on every other instruction set that this machine has.
 static void compare_isas(const Stage *stage, uint64_t count) {
-    if (!stage->first)
+    if (!stage->kept)
         return;
     const char *own = patch_isa_name();
     for (size_t n = 0; n < sizeof isas / sizeof *isas; n++) {
         if (strcmp(isas[n], own) == 0 || patch_isa_choose(isas[n]) != PATCH_ISA_CHOSEN)
             continue;
-        uint64_t bits = 0;
-#pragma omp parallel for schedule(dynamic, 64) reduction(+ : bits)
+#pragma omp parallel for schedule(dynamic, 64)
         for (uint64_t ray = 0; ray < count; ray++) {
             StressAnswer a;
-            ask(stage->sets[METHOD_QI], &stage->rays[ray], ASK_NEAREST, &a);
-            ask(stage->sets[METHOD_QI], &stage->rays[ray], ASK_ANY, &a);
-            const PatchHit *first = &stage->first[ray];
-            bool same = a.found == !isnan(first->t) && (!a.found || same_bits(&a.hit, first)) &&
-                        a.any == stage->first_any[ray];
-            bits += !same;
-            if (!same && bits == 1)
-                printf("%s differs on %s and %s: scene %llu ray %llu\n", stage->which->name, own,
-                       isas[n], (unsigned long long)stage->number, (unsigned long long)ray);
+            ask(stage->sets[METHOD_QI], &stage->kept[ray].ray, ASK_NEAREST, &a);
+            ask(stage->sets[METHOD_QI], &stage->kept[ray].ray, ASK_ANY, &a);
+            if (!same_answer(&stage->kept[ray], a.found, &a.hit, a.any))
+                count_bits(stage, own, ray);
         }
-        stage->tally[METHOD_QI].bits += bits;
     }
     patch_isa_choose(own);
+}
+
+// The rays as packets: as they follow each other, going all ways, and beside one of them.
+static void compare_packet(const Stage *stage, const Kept *kept, int count, uint64_t first) {
+    const PatchSet *set = stage->sets[METHOD_QI];
+    Ray rays[PATCH_PACKET] = {0};
+    PatchRange ranges[PATCH_PACKET] = {0};
+    PatchHit hits[PATCH_PACKET];
+    bool found[PATCH_PACKET], any[PATCH_PACKET];
+    for (int k = 0; k < count; k++) {
+        rays[k] = kept[k].ray.ray;
+        ranges[k] = (PatchRange){kept[k].ray.t_min, kept[k].ray.t_max, 1};
+    }
+    patchset_intersect_many(set, rays, ranges, (size_t)count, NULL, found, hits);
+    patchset_occluded_many(set, rays, ranges, (size_t)count, NULL, any);
+    for (int k = 0; k < count; k++)
+        if (!same_answer(&kept[k], found[k], &hits[k], any[k]))
+            count_bits(stage, "in packets", first + (uint64_t)k);
+}
+
+static void compare_packets(const Stage *stage, uint64_t count) {
+#pragma omp parallel for schedule(dynamic, 4)
+    for (uint64_t first = 0; first < count; first += PATCH_PACKET) {
+        Kept beside[PATCH_PACKET];
+        int several = (int)(count - first < PATCH_PACKET ? count - first : PATCH_PACKET);
+        if (!stage->kept)
+            continue;
+        compare_packet(stage, stage->kept + first, several, first);
+        Rng rng = {first ^ stage->number << 32};
+        double off = pow(10.0, rng_range(&rng, -16.0, -1.0));
+        for (int k = 0; k < PATCH_PACKET; k++) {
+            beside[k] = stage->kept[first];
+            Vec3 *d = &beside[k].ray.ray.dir;
+            *d = vec_madd(*d, off * vec_length(*d), stress_direction(&rng));
+            StressAnswer a;
+            ask(stage->sets[METHOD_QI], &beside[k].ray, ASK_NEAREST, &a);
+            ask(stage->sets[METHOD_QI], &beside[k].ray, ASK_ANY, &a);
+            beside[k].found = a.found, beside[k].any = a.any, beside[k].hit = a.hit;
+        }
+        compare_packet(stage, beside, PATCH_PACKET, first);
+    }
 }
 
 // ---- One ray
@@ -213,24 +259,37 @@ static void record(const Stage *stage, int method, const StressRay *r, uint64_t 
     }
 }
 
-// A ray from the hit onwards.
+// A ray from the hit onwards, clear of all that meets there: see patch_clearance.
 static void leave(const Stage *stage, int method, const StressRay *r, uint64_t ray) {
+    enum { MOST_SURFACES = 16 };
+    const PatchDef *defs = stage->scene.defs;
     StressAnswer a = {0};
     ask(stage->sets[method], r, ASK_NEAREST, &a);
     if (!a.found)
         return;
-    const PatchDef *def = &stage->scene.defs[a.hit.id];
     StressRay next = {.ray = {vec_madd(r->ray.org, a.hit.t, r->ray.dir), r->onward},
                       .t_max = INFINITY};
-    next.t_min = patch_clearance(def, &a.hit, &next.ray);
+    next.t_min = patch_clearance(&defs[a.hit.id], &a.hit, &next.ray);
     PatchHit left = a.hit;
-    double reach = a.hit.bound + 8.0 * 0x1p-52 * vec_length(next.ray.org);
+    double bound = a.hit.bound;
+    for (int n = 0; n < MOST_SURFACES; n++) {
+        ask(stage->sets[method], &next, ASK_NEAREST, &a);
+        if (!a.found)
+            break;
+        Ray rest = {vec_madd(next.ray.org, next.t_min, next.ray.dir), next.ray.dir};
+        double clear = next.t_min + patch_clearance(&defs[a.hit.id], &a.hit, &rest);
+        if (!(a.hit.t < clear))
+            break;
+        next.t_min = clear;
+        bound = fmax(bound, a.hit.bound);
+    }
     StressTruth truth;
     stress_truth_init(&truth, &stage->scene, &next);
     answer(stage, method, &next, ray, &a);
+    keep(stage, method, ray, &next, &a);
     StressVerdict verdict = stress_judge(stage->which, (PatchMethod)method, &truth, &a);
     if (verdict == STRESS_FINE && !stress_is_triangles((PatchMethod)method))
-        verdict = stress_judge_left(&a, &truth, &left, reach);
+        verdict = stress_judge_left(&a, &truth, &left, bound);
     record(stage, method, &next, ray, verdict, &a, &truth);
 }
 
@@ -280,6 +339,8 @@ static void open_stage(Stage *stage, bool all_methods) {
         options.method = (PatchMethod)method;
         // Triangles can't be had at 1e-9.
         options.tolerance = method == METHOD_TESSELLATION ? 1e-3 : stage->which->tolerance;
+        if (stage->which->prepared)
+            options.prepare = (PatchPrepare)(stage->number % PREPARE_COUNT);
         PatchSet *set = stage->sets[method] = patchset_create(&options);
         for (int n = 0; n < stage->scene.count; n++)
             patchset_add(set, &stage->scene.defs[n]);
@@ -311,15 +372,14 @@ static void run_case(const StressOptions *options, const StressCase *which, doub
         open_stage(&stage,
                    which->per_scene > 1000 || number % 16 == 0 || options->only_method != NULL);
         uint64_t left = total - number * per_scene, count = left < per_scene ? left : per_scene;
-        if (stage.sets[METHOD_QI] && !stress_case_leaves(which)) {
-            stage.rays = ARENA_ARRAY(stage.scene.arena, StressRay, count);
-            stage.first = ARENA_ARRAY(stage.scene.arena, PatchHit, count);
-            stage.first_any = ARENA_ARRAY(stage.scene.arena, bool, count);
+        if (stage.sets[METHOD_QI]) {
+            stage.kept = ARENA_ARRAY(stage.scene.arena, Kept, count);
         }
 #pragma omp parallel for schedule(dynamic, 64)
         for (uint64_t ray = 0; ray < count; ray++)
             trace(&stage, ray);
         compare_isas(&stage, count);
+        compare_packets(&stage, count);
         close_stage(&stage);
     }
 }

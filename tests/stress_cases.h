@@ -56,20 +56,35 @@ typedef struct StressCase {
     double tolerance; // of the methods; 0: the default
     bool watertight;  // counts separately: only rays at closed edges, judged by what stops them
     int least;        // rays: fewer are not worth making its scene, and it is left out
+    bool prepared;    // scene by scene in another way (PatchPrepare)
 } StressCase;
 
 extern const StressCase stress_cases[];
 extern const int stress_case_count;
 
-// Do its rays begin at hits that the method finds first?
-bool stress_case_leaves(const StressCase *which);
 // *scene is made anew (its arena too); destroy it with stress_scene_destroy.
 void stress_scene_make(const StressCase *which, uint64_t seed, uint64_t number, StressScene *scene);
 void stress_scene_destroy(StressScene *scene);
 void stress_ray_make(const StressCase *which, const StressScene *scene, uint64_t seed,
                      uint64_t number, uint64_t ray, StressRay *out);
 
-// ---- Scenes (stress_scenes.c): each adds patches to an empty scene.
+// ---- Aims (stress_aims_hard.c; the others are in stress_cases.c)
+void aim_surface(const StressScene *s, Rng *rng, double unused, StressRay *out);
+void aim_inside(const StressScene *s, Rng *rng, double unused, StressRay *out);
+void aim_bounds(const StressScene *s, Rng *rng, double unused, StressRay *out);
+void aim_uneven(const StressScene *s, Rng *rng, double unused, StressRay *out);
+void aim_tangent(const StressScene *s, Rng *rng, double unused, StressRay *out);
+void aim_secant(const StressScene *s, Rng *rng, double unused, StressRay *out);
+void aim_lattice(const StressScene *s, Rng *rng, double unused, StressRay *out);
+void aim_rulings(const StressScene *s, Rng *rng, double unused, StressRay *out);
+void aim_middle(const StressScene *s, Rng *rng, double unused, StressRay *out);
+void aim_folds(const StressScene *s, Rng *rng, double unused, StressRay *out);
+void aim_curve(const StressScene *s, Rng *rng, double unused, StressRay *out);
+void aim_distant(const StressScene *s, Rng *rng, double decades, StressRay *out);
+void aim_leaving_hard(const StressScene *s, Rng *rng, double unused, StressRay *out);
+void aim_any(const StressScene *s, Rng *rng, double unused, StressRay *out);
+
+// ---- Scenes (stress_scenes.c, stress_scenes_hard.c): each adds patches to a scene.
 void scene_teapot(StressScene *s, Rng *rng, double scale);
 void scene_pot(StressScene *s, Rng *rng, double unused);   // the teapot as it is
 void scene_sheet(StressScene *s, Rng *rng, double unused); // one bicubic patch
@@ -98,6 +113,27 @@ void scene_rational(StressScene *s, Rng *rng, double decades);
 void scene_round(StressScene *s, Rng *rng, double unused);
 void scene_mixed_sizes(StressScene *s, Rng *rng, double unused);
 void scene_many(StressScene *s, Rng *rng, double teapots);
+void scene_lattice(StressScene *s, Rng *rng, double unused);
+void scene_repeated(StressScene *s, Rng *rng, double wild);
+void scene_uneven(StressScene *s, Rng *rng, double decades);
+void scene_coincident(StressScene *s, Rng *rng, double wild);
+void scene_stack(StressScene *s, Rng *rng, double wild);
+void scene_ruled(StressScene *s, Rng *rng, double unused);
+void scene_tilted(StressScene *s, Rng *rng, double unused);
+void scene_curve(StressScene *s, Rng *rng, double unused);
+void scene_folds(StressScene *s, Rng *rng, double unused);
+void scene_pinch(StressScene *s, Rng *rng, double unused);
+void scene_sphere(StressScene *s, Rng *rng, double unused);
+void scene_far_small(StressScene *s, Rng *rng, double offset);
+void scene_far_mesh(StressScene *s, Rng *rng, double offset);
+void scene_mixed_huge(StressScene *s, Rng *rng, double unused);
+void scene_any(StressScene *s, Rng *rng, double unused);
+
+// Adds a patch; returns its points, to be written.
+Vec3 *stress_add(StressScene *s, int du, int dv);
+// A random linear map of all points, so that no axis is special.
+void stress_turn(StressScene *s, Rng *rng);
+void stress_move(StressScene *s, double scale, Vec3 offset);
 
 Vec3 stress_direction(Rng *rng);
 // A point of a patch, with its tangents.

@@ -357,11 +357,15 @@ StressVerdict stress_judge(const StressCase *which, PatchMethod method, StressTr
 }
 
 StressVerdict stress_judge_left(const StressAnswer *answer, StressTruth *truth,
-                                const PatchHit *left, double reach) {
+                                const PatchHit *left, double bound) {
     const StressRay *r = truth->ray;
     const StressScene *s = truth->scene;
-    // The same surface, as far as the bound of the hit that was left can tell?
-    if (answer->found && ray_oracle_near(s->oracle, &r->ray, 0.0, answer->hit.t, 0.5 * reach))
+    double rounding = 8.0 * 0x1p-52 * length_of(r->ray.org), reach = bound + rounding;
+    double own = 0.5 * (left->bound + rounding);
+    // The same surface, as far as the bound of the hit that was left can tell? Asked in steps: from
+    // t_min on in steps of that way, lest one step hold the end of the surface and another sheet.
+    if (answer->found && ray_oracle_near(s->oracle, &r->ray, 0.0, answer->hit.t, own) &&
+        ray_oracle_near(s->oracle, &r->ray, r->t_min, answer->hit.t, own))
         return STRESS_FALSE;
     // What was left out before t_min must have been that surface.
     RayOracleRange range = {16.0 * reach / length_of(r->ray.dir), r->t_min};

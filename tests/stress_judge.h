@@ -69,9 +69,10 @@ typedef struct {
 void stress_truth_init(StressTruth *truth, const StressScene *scene, const StressRay *ray);
 StressVerdict stress_judge(const StressCase *which, PatchMethod method, StressTruth *truth,
                            const StressAnswer *answer);
-// Of a ray that began at the hit `left`: reach is its bound.
+// Of a ray that began at the hit `left`; bound: the largest of its own and those of hits that were
+// taken to be the same surface.
 StressVerdict stress_judge_left(const StressAnswer *answer, StressTruth *truth,
-                                const PatchHit *left, double reach);
+                                const PatchHit *left, double bound);
 void stress_truth_print(StressTruth *truth);
 
 #endif

@@ -9,7 +9,7 @@
 #include <stdio.h>
 #include <string.h>
 
-static Vec3 *add(StressScene *s, int du, int dv) {
+Vec3 *stress_add(StressScene *s, int du, int dv) {
     if (s->count == s->capacity) {
         int capacity = s->capacity ? 2 * s->capacity : 64;
         PatchDef *defs = ARENA_ARRAY(s->arena, PatchDef, (size_t)capacity);
@@ -38,7 +38,7 @@ static int count_of(const StressScene *s, int patch) {
 
 // A sheet over [0,1]^2 with noise.
 static Vec3 *add_sheet(StressScene *s, Rng *rng, int du, int dv, double wild) {
-    Vec3 *p = add(s, du, dv);
+    Vec3 *p = stress_add(s, du, dv);
     for (int i = 0; i <= du; i++)
         for (int j = 0; j <= dv; j++)
             p[i * (dv + 1) + j] = vec3((double)i / du + wild * rng_range(rng, -1.0, 1.0),
@@ -47,8 +47,7 @@ static Vec3 *add_sheet(StressScene *s, Rng *rng, int du, int dv, double wild) {
     return p;
 }
 
-// A random linear map of all points, so that no axis is special.
-static void turn_all(StressScene *s, Rng *rng) {
+void stress_turn(StressScene *s, Rng *rng) {
     Vec3 a = vec_normalize(stress_direction(rng)), b = stress_direction(rng);
     b = vec_normalize(vec_madd(b, -vec_dot(a, b), a));
     Vec3 c = vec_cross(a, b);
@@ -59,7 +58,7 @@ static void turn_all(StressScene *s, Rng *rng) {
     }
 }
 
-static void move_all(StressScene *s, double scale, Vec3 offset) {
+void stress_move(StressScene *s, double scale, Vec3 offset) {
     for (int n = 0; n < s->count; n++) {
         Vec3 *p = points_of(s, n);
         for (int k = 0; k < count_of(s, n); k++)
@@ -92,7 +91,7 @@ static void load_teapot(StressScene *s, double scale, Vec3 offset) {
         loaded = 1;
     }
     for (int n = 0; n < 32; n++) {
-        Vec3 *p = add(s, 3, 3);
+        Vec3 *p = stress_add(s, 3, 3);
         for (int k = 0; k < 16; k++)
             p[k] = vec_add(vec_scale(teapot[16 * n + k], scale), offset);
     }
@@ -120,7 +119,7 @@ void scene_teapot_moved(StressScene *s, Rng *rng, double offset) {
 
 void scene_random(StressScene *s, Rng *rng, double wild) {
     add_sheet(s, rng, 3, 3, wild * rng_unit(rng));
-    turn_all(s, rng);
+    stress_turn(s, rng);
 }
 
 void scene_degrees(StressScene *s, Rng *rng, double wild) {
@@ -128,7 +127,7 @@ void scene_degrees(StressScene *s, Rng *rng, double wild) {
     if (rng_next(rng) % 2) // mostly small ones
         du = 1 + du % 6, dv = 1 + dv % 6;
     add_sheet(s, rng, du, dv, wild * rng_unit(rng));
-    turn_all(s, rng);
+    stress_turn(s, rng);
 }
 
 // 3 x 3 patches of different bi-degrees that share their sides exactly: one of degree 3 all along.
@@ -139,7 +138,7 @@ void scene_mesh(StressScene *s, Rng *rng, double wild) {
             grid[i][j] = vec3(i / 3.0 + wild * rng_range(rng, -1, 1),
                               j / 3.0 + wild * rng_range(rng, -1, 1), rng_range(rng, -1, 1));
     for (int n = 0; n < 9; n++) {
-        Vec3 *p = add(s, 3, 3);
+        Vec3 *p = stress_add(s, 3, 3);
         bool turned = rng_next(rng) % 2; // u and v swapped: the side is read the other way
         for (int i = 0; i < 4; i++)
             for (int j = 0; j < 4; j++)
@@ -156,14 +155,14 @@ static Vec3 dyadic(Rng *rng) {
 
 void scene_point(StressScene *s, Rng *rng, double unused) {
     (void)unused;
-    Vec3 *p = add(s, 3, 3), at = dyadic(rng);
+    Vec3 *p = stress_add(s, 3, 3), at = dyadic(rng);
     for (int k = 0; k < 16; k++)
         p[k] = at;
 }
 
 void scene_segment(StressScene *s, Rng *rng, double unused) {
     (void)unused;
-    Vec3 *p = add(s, 3, 3), a = dyadic(rng), b = dyadic(rng);
+    Vec3 *p = stress_add(s, 3, 3), a = dyadic(rng), b = dyadic(rng);
     bool plain = rng_next(rng) % 2; // else back and forth
     for (int k = 0; k < 16; k++) {
         double share = plain ? (double)(k / 4 + k % 4) / 8.0 : (double)(rng_next(rng) % 33) / 32.0;
@@ -186,7 +185,7 @@ void scene_saddle(StressScene *s, Rng *rng, double unused) {
     (void)unused;
     bool cubic = rng_next(rng) % 2;
     int d = cubic ? 3 : 1;
-    Vec3 *p = add(s, d, d);
+    Vec3 *p = stress_add(s, d, d);
     // Corners (i, j) of [0,3]^2: thirds of a cubic fall on whole numbers.
     for (int i = 0; i <= d; i++)
         for (int j = 0; j <= d; j++) {
@@ -196,7 +195,7 @@ void scene_saddle(StressScene *s, Rng *rng, double unused) {
 }
 
 void scene_thin_sheets(StressScene *s, Rng *rng, double gap) {
-    Vec3 *p = add_sheet(s, rng, 3, 3, 0.2 * rng_unit(rng)), *q = add(s, 3, 3);
+    Vec3 *p = add_sheet(s, rng, 3, 3, 0.2 * rng_unit(rng)), *q = stress_add(s, 3, 3);
     for (int k = 0; k < 16; k++)
         q[k] = vec3(p[k].x, p[k].y, p[k].z + gap);
     s->detail = gap;
@@ -207,7 +206,7 @@ static const double THRICE[4] = {-1.0, 5.0, -5.0, 1.0};
 
 void scene_fold9(StressScene *s, Rng *rng, double unused) {
     (void)unused;
-    Vec3 *p = add(s, 3, 3);
+    Vec3 *p = stress_add(s, 3, 3);
     for (int i = 0; i < 4; i++)
         for (int j = 0; j < 4; j++)
             p[4 * i + j] = vec3(THRICE[i] + 0.05 * rng_unit(rng), THRICE[j] + 0.05 * rng_unit(rng),
@@ -218,7 +217,7 @@ void scene_fold9(StressScene *s, Rng *rng, double unused) {
 // which nine (u,v) have: 18 crossings, as many as two curves of bi-degree (3,3) can have.
 void scene_line18(StressScene *s, Rng *rng, double unused) {
     (void)unused;
-    Vec3 *p = add(s, 3, 3);
+    Vec3 *p = stress_add(s, 3, 3);
     double tilt = rng_range(rng, -1.0, 1.0);
     for (int i = 0; i < 4; i++)
         for (int j = 0; j < 4; j++)
@@ -240,7 +239,7 @@ void scene_double_rows(StressScene *s, Rng *rng, double unused) {
         if (which & 8)
             p[4 * k + 2] = p[4 * k + 3];
     }
-    turn_all(s, rng);
+    stress_turn(s, rng);
 }
 
 void scene_aspect(StressScene *s, Rng *rng, double ratio) {
@@ -277,7 +276,7 @@ void scene_ribbon(StressScene *s, Rng *rng, double ratio) {
     for (int k = 0; k < count_of(s, 0); k++)
         points_of(s, 0)[k] = vec_mul(points_of(s, 0)[k], vec3(by[0], by[1], by[2]));
     if (rng_next(rng) % 2)
-        turn_all(s, rng);
+        stress_turn(s, rng);
 }
 
 void scene_ribbon10(StressScene *s, Rng *rng, double unused) {
@@ -290,25 +289,25 @@ void scene_cusp(StressScene *s, Rng *rng, double unused) {
     (void)unused;
     static const double cube[4] = {-1.0, 1.0, -1.0, 1.0},
                         square[4] = {1.0, -1.0 / 3, -1.0 / 3, 1.0};
-    Vec3 *p = add(s, 3, 3);
+    Vec3 *p = stress_add(s, 3, 3);
     double bend = rng_range(rng, -0.2, 0.2);
     for (int i = 0; i < 4; i++)
         for (int j = 0; j < 4; j++)
             p[4 * i + j] = vec3(cube[i] + bend * j * j, j / 3.0, square[i]);
     if (rng_next(rng) % 2)
-        turn_all(s, rng);
+        stress_turn(s, rng);
 }
 
 // A loop along u that crosses itself, swept along v.
 void scene_self_crossing(StressScene *s, Rng *rng, double unused) {
     (void)unused;
     static const double x[4] = {0, 1.5, -0.5, 1}, z[4] = {0, 1, 1, 0};
-    Vec3 *p = add(s, 3, 3);
+    Vec3 *p = stress_add(s, 3, 3);
     for (int i = 0; i < 4; i++)
         for (int j = 0; j < 4; j++)
             p[4 * i + j] = vec3(x[i] + 0.05 * rng_unit(rng), j / 3.0 + 0.05 * rng_unit(rng),
                                 z[i] + 0.05 * rng_unit(rng));
-    turn_all(s, rng);
+    stress_turn(s, rng);
 }
 
 // Inner points beyond the far corner: the sheet is turned inside out near one corner, or all.
@@ -321,7 +320,7 @@ void scene_twisted(StressScene *s, Rng *rng, double unused) {
             Vec3 out = vec_sub(p[corner[k]], p[inner[k]]);
             p[inner[k]] = vec_madd(p[inner[k]], rng_range(rng, 1.5, 4.0), out);
         }
-    turn_all(s, rng);
+    stress_turn(s, rng);
 }
 
 // Sides and corners that are points, in all the ways that modellers make triangles and leaves.
@@ -341,7 +340,7 @@ void scene_collapsed(StressScene *s, Rng *rng, double unused) {
         p[1] = p[4] = p[5] = p[0];
     if (kind == 4) // both corners on one point
         p[12] = p[0];
-    turn_all(s, rng);
+    stress_turn(s, rng);
 }
 
 // The first half of a cubic.
@@ -363,7 +362,7 @@ void scene_t_junction(StressScene *s, Rng *rng, double unused) {
         p[12 + j] = vec3(1.0, (double)j, 0.125 * at.z);
     }
     for (int half = 0; half < 2; half++) {
-        Vec3 side[4], out[4], *q = add(s, 3, 3);
+        Vec3 side[4], out[4], *q = stress_add(s, 3, 3);
         for (int j = 0; j < 4; j++)
             side[j] = p[12 + (half ? 3 - j : j)];
         first_half(side, out);
@@ -377,8 +376,8 @@ void scene_t_junction(StressScene *s, Rng *rng, double unused) {
 
 void scene_scaled(StressScene *s, Rng *rng, double scale) {
     add_sheet(s, rng, 3, 3, 0.3 * rng_unit(rng));
-    turn_all(s, rng);
-    move_all(s, scale, vec3(0, 0, 0));
+    stress_turn(s, rng);
+    stress_move(s, scale, vec3(0, 0, 0));
 }
 
 // Weights between 10^-decades and 10^decades.
@@ -389,7 +388,7 @@ void scene_rational(StressScene *s, Rng *rng, double decades) {
     for (int k = 0; k < count_of(s, 0); k++)
         weights[k] = pow(10.0, rng_range(rng, -decades, decades));
     s->defs[0].weights = weights;
-    turn_all(s, rng);
+    stress_turn(s, rng);
 }
 
 // A quarter of a torus's outside, exactly round both ways: weights 1, 1/sqrt(2), 1.
@@ -397,7 +396,7 @@ void scene_round(StressScene *s, Rng *rng, double unused) {
     (void)unused;
     static const double x[3] = {1, 1, 0}, y[3] = {0, 1, 1};
     double weight[3] = {1.0, sqrt(0.5), 1.0}, minor = rng_range(rng, 0.1, 1.0);
-    Vec3 *p = add(s, 2, 2);
+    Vec3 *p = stress_add(s, 2, 2);
     double *weights = ARENA_ARRAY(s->arena, double, 9);
     for (int i = 0; i < 3; i++) {
         for (int j = 0; j < 3; j++) {
@@ -407,7 +406,7 @@ void scene_round(StressScene *s, Rng *rng, double unused) {
         }
     }
     s->defs[0].weights = weights;
-    turn_all(s, rng);
+    stress_turn(s, rng);
 }
 
 void scene_mixed_sizes(StressScene *s, Rng *rng, double unused) {

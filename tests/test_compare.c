@@ -26,12 +26,16 @@
 
 #define PROGRAM "build/test/qicompare"
 
-// Runs qicompare in the folder; what it prints (both streams) goes to *said.
-static int compare(const OwnFolder *place, const char *words, const char **said) {
+static void need_program(void) {
     if (access(PROGRAM, X_OK) != 0) {
         print_message("skipped: " PROGRAM " is not built\n");
         skip();
     }
+}
+
+// Runs qicompare in the folder; what it prints (both streams) goes to *said.
+static int compare(const OwnFolder *place, const char *words, const char **said) {
+    need_program();
     const char *command = arena_printf(
         place->arena, "cd %s && ASAN_OPTIONS=detect_leaks=0 %s/" PROGRAM " %s >said.txt 2>&1",
         place->folder, place->root, words);
@@ -464,6 +468,7 @@ static void several_scenes(void **state) {
 // the index names what is missing, and POV-Ray does not go on behind.
 static void interruption_leaves_whole_files(void **state) {
     OwnFolder *place = *state;
+    need_program();
     if (!reference_available()) {
         print_message("skipped: povray is not installed\n");
         skip();

@@ -309,6 +309,42 @@ static void prepared_ribbons(void **state) {
     }
 }
 
+// A ribbon of which only the rounding has a width: it was cut for the unevenness of that.
+static const Found thread = {
+    "2404 pieces, one as long as the other, all of them searched: 1803 nets, 1.4 ms",
+    {{-0.4323163488384637, -0.89857486178532886, -1.002828894824265},
+     {-138216982393712.17, -193860844434943.34, 233291984183036.31},
+     {-276433964787423.94, -387721688869885.75, 466583968366073.62},
+     {-414650947181135.69, -581582533304828.25, 699875952549110.88},
+     {0.69225046804293244, 0.35958598534176378, 0.70894168995146911},
+     {-138216982393711.05, -193860844434942.06, 233291984183038.03},
+     {-276433964787422.81, -387721688869884.56, 466583968366075.31},
+     {-414650947181134.56, -581582533304827, 699875952549112.62},
+     {-0.95218458724740129, 0.1794028911018013, -0.4150544850786731},
+     {-138216982393712.69, -193860844434942.25, 233291984183036.91},
+     {-276433964787424.44, -387721688869884.69, 466583968366074.19},
+     {-414650947181136.19, -581582533304827.25, 699875952549111.5},
+     {1.2121187064518701, -0.71839176754536638, 0.12116728020587714},
+     {-138216982393710.53, -193860844434943.16, 233291984183037.44},
+     {-276433964787422.31, -387721688869885.62, 466583968366074.75},
+     {-414650947181134.06, -581582533304828, 699875952549112}},
+    {{-390333312233562, 549243548003737.94, 752233386299703.12},
+     {140243439318636.62, -900015451052611.5, -330114760455207.88}}};
+
+static void uneven_by_rounding(void **state) {
+    (void)state;
+    check(&thread, 50);
+    PatchDef def = {.degree_u = 3, .degree_v = 3, .points = thread.points, .mask = UINT32_MAX};
+    PatchSet *set = set_of(&def);
+    PatchStats stats = {0};
+    PatchHit hit;
+    assert_true(patchset_intersect(set, &thread.ray, 0.0, INFINITY, UINT32_MAX, &stats, &hit));
+    assert_true(ray_oracle_residual(&def, &thread.ray, hit.t, hit.u, hit.v) <= hit.bound);
+    if (stats.steps + stats.newton > 50)
+        fail_msg("%s: %d steps", thread.before, (int)(stats.steps + stats.newton));
+    patchset_destroy(set);
+}
+
 static void count_hit(void *count, const PatchHit *hit) {
     (void)hit;
     ++*(int *)count;
@@ -494,8 +530,9 @@ static void clear_of_ribbons(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(rays_at_ribbons),  cmocka_unit_test(rays_at_lines),
-        cmocka_unit_test(prepared_ribbons), cmocka_unit_test(pairs_on_ribbons),
-        cmocka_unit_test(leaving_a_ribbon), cmocka_unit_test(clear_of_ribbons),
+        cmocka_unit_test(prepared_ribbons), cmocka_unit_test(uneven_by_rounding),
+        cmocka_unit_test(pairs_on_ribbons), cmocka_unit_test(leaving_a_ribbon),
+        cmocka_unit_test(clear_of_ribbons),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -283,14 +283,18 @@ void frame_weigh(const Bezier *part, double error, FrameWeight *weight) {
     weight->half = larger(0.5 * (high - low), FRAME_LEAST);
 }
 
-double frame_unevenness(const FrameWeight *weight) {
-    double rest[2], shift;
+double frame_unevenness(const FrameWeight *weight, double goal) {
+    double most = 0.0, shift;
     for (int k = 0; k < 2; k++) {
+        double slack = length1(weight->axes[k]) * weight->wide;
+        // Rounding's part doubles with a cut.
+        if (slack > 0.5 * goal)
+            continue;
         Coordinate local;
         to_local(weight->part, weight->axes[k], weight->from, &local);
-        rest[k] = rest_of(weight->part, &local, length1(weight->axes[k]) * weight->wide, k, &shift);
+        most = larger(most, rest_of(weight->part, &local, slack, k, &shift));
     }
-    return larger(rest[0], rest[1]);
+    return most;
 }
 
 void frame_measure(const Bezier *part, double error, PieceFrame *frame) {

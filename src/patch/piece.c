@@ -284,8 +284,9 @@ static double judge(const Cutter *k, const Bezier *s, bool whole) {
     double badness = weight.half / thin;
     if (badness > 1.0 && !whole)
         return badness;
+    double even = EVEN * k->share / SHARE;
     if (weight.regular && size > k->size / 16.0)
-        badness = larger(badness, frame_unevenness(&weight) * SHARE / (EVEN * k->share));
+        badness = larger(badness, frame_unevenness(&weight, even) / even);
     return badness;
 }
 

@@ -158,7 +158,8 @@ typedef struct {
 // coordinate.
 void frame_measure(const Bezier *part, double error, PieceFrame *frame);
 // What decides whether the part is cut, without the rest of its frame: half[2], and what is asked
-// afterwards, the larger rest. part must stay.
+// afterwards, the larger rest (of a part no wider than its rounding that is nothing that a cut
+// makes less: then it does not count). part must stay.
 typedef struct {
     const Bezier *part;
     Vec3 from, axes[3];
@@ -166,7 +167,7 @@ typedef struct {
     bool regular;
 } FrameWeight;
 void frame_weigh(const Bezier *part, double error, FrameWeight *weight);
-double frame_unevenness(const FrameWeight *weight); // of a regular one
+double frame_unevenness(const FrameWeight *weight, double goal); // of a regular one
 // A box around the part.
 Box frame_box(const Bezier *part, double error);
 // Puts a frame into a lane, and what belongs to it into the piece. reach: no point of the block's

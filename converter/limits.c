@@ -5,8 +5,9 @@
 // those that cost time or stack are lower.
 #include "converter/language.h"
 
+#include "base/usage.h"
+
 #include <sys/resource.h>
-#include <time.h>
 
 #ifdef HOSTILE
 #define PICK(usual, hostile) (hostile)
@@ -36,11 +37,7 @@ static size_t stack_room(void) {
     return stack / 4 * 3;
 }
 
-static uint64_t now_seconds(void) {
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (uint64_t)t.tv_sec;
-}
+static uint64_t now_seconds(void) { return (uint64_t)usage_clock(); }
 
 void limits_start(Converter *cv) {
     Language *l = cv->language;

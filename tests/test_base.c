@@ -15,6 +15,7 @@
 #include "base/file.h"
 #include "base/progress.h"
 #include "base/rng.h"
+#include "base/usage.h"
 #include "base/vec.h"
 
 #include <float.h>
@@ -463,8 +464,21 @@ static void test_progress(void **state) {
         progress_add(&progress, 1);
     assert_int_equal(progress.done, 1000);
     progress_end(&progress);
-    double before = progress_seconds();
-    assert_true(progress_seconds() >= before);
+}
+
+// Work moves all three clocks; those of the wall and of the process by no less than the thread's.
+static void test_usage(void **state) {
+    (void)state;
+    double wall = usage_clock(), process = usage_process(), thread = usage_thread();
+    while (usage_thread() - thread < 0.01)
+        ;
+    thread = usage_thread() - thread;
+    process = usage_process() - process;
+    wall = usage_clock() - wall;
+    assert_true(process >= 0.01 && wall >= 0.01);
+    assert_true(thread < process + 0.001 && thread < wall + 0.001);
+    double megabytes = usage_peak_megabytes();
+    assert_true(megabytes > 1 && megabytes < 1e6);
 }
 
 int main(int argc, char **argv) {
@@ -488,6 +502,7 @@ int main(int argc, char **argv) {
         cmocka_unit_test(test_rotation_is_povs),
         cmocka_unit_test(test_boxes),
         cmocka_unit_test(test_progress),
+        cmocka_unit_test(test_usage),
     };
     return cmocka_run_group_tests_name("base", tests, set_up, tear_down);
 }

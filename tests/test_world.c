@@ -8,7 +8,7 @@
 
 #include <cmocka.h>
 
-#include "base/progress.h"
+#include "base/usage.h"
 #include "base/rng.h"
 #include "render/world.h"
 #include "shape/shape.h"
@@ -519,9 +519,9 @@ static void test_many_spheres(void **state) {
                                : stage_sphere(vec3(1, 2, 3), 0.5);
         stage_put_root(&stage, stage_put(&stage, &object));
     }
-    double start = progress_seconds();
+    double start = usage_clock();
     stage_ready(&stage, true);
-    print_message("%d spheres: %.2f s, %.1f MB\n", (int)COUNT, progress_seconds() - start,
+    print_message("%d spheres: %.2f s, %.1f MB\n", (int)COUNT, usage_clock() - start,
                   (double)world_memory(stage.world) / 1e6);
     int hits = 0;
     compare_rays(&stage, &rng, 100, &hits);

@@ -1,18 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "base/progress.h"
 
+#include "base/usage.h"
+
 #include <stdio.h>
-#include <time.h>
 #include <unistd.h>
 
-double progress_seconds(void) {
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
-
 Progress progress_begin(const char *what, uint64_t total, bool enabled) {
-    Progress p = {.what = what, .total = total ? total : 1, .started = progress_seconds()};
+    Progress p = {.what = what, .total = total ? total : 1, .started = usage_clock()};
     p.on = enabled && isatty(STDERR_FILENO);
     return p;
 }
@@ -33,7 +28,7 @@ void progress_add(Progress *p, uint64_t amount) {
         return;
 #pragma omp critical(progress_line)
     {
-        double now = progress_seconds();
+        double now = usage_clock();
         if (now - p->shown >= 0.1)
             draw(p, done, now);
     }
@@ -42,7 +37,7 @@ void progress_add(Progress *p, uint64_t amount) {
 void progress_say(Progress *p, const char *what) {
     p->what = what;
     if (p->on)
-        draw(p, p->done, progress_seconds());
+        draw(p, p->done, usage_clock());
 }
 
 void progress_end(Progress *p) {

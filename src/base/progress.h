@@ -14,12 +14,11 @@ typedef struct {
     bool on;
 } Progress;
 
-// enabled false: silent. Seconds come from a monotonic clock.
+// enabled false: silent.
 Progress progress_begin(const char *what, uint64_t total, bool enabled);
 // Any thread; redraws at most 10 times a second.
 void progress_add(Progress *progress, uint64_t amount);
 void progress_say(Progress *progress, const char *what); // what is done now; one thread
 void progress_end(Progress *progress);                   // wipes the line
-double progress_seconds(void);                           // the monotonic clock
 
 #endif

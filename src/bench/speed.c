@@ -6,6 +6,7 @@
 #include "base/array.h"
 #include "base/diag.h"
 #include "base/progress.h"
+#include "base/usage.h"
 #include "bench/tracers.h"
 #include "patch/bezier.h"
 
@@ -46,7 +47,7 @@ typedef struct {
 
 static void measure(Entry *entry, View view, int round, const Ray *rays) {
     long step = (long)fmax(1.0, rint(1.0 / entry->share)), count = 0;
-    double start = process_seconds();
+    double start = usage_process();
     if (step == 1) {
         entry->trace(entry->scene, rays, VIEW_RAYS);
         count = VIEW_RAYS;
@@ -54,7 +55,7 @@ static void measure(Entry *entry, View view, int round, const Ray *rays) {
         for (long i = 0; i < VIEW_RAYS; i += VIEW_GROUP * step, count += VIEW_GROUP)
             entry->trace(entry->scene, rays + i, VIEW_GROUP);
     }
-    entry->rate[view][round] = (double)count / (process_seconds() - start);
+    entry->rate[view][round] = (double)count / (usage_process() - start);
 }
 
 static PatchSet *committed(const Vec3 *points, size_t patches, PatchMethod method,
@@ -228,12 +229,12 @@ typedef struct {
 
 static Picture qi_picture(const Vec3 *points, PatchPrepare prepare, double error, const Ray *rays) {
     Picture p;
-    double start = process_seconds();
+    double start = usage_process();
     PatchSet *set = committed(points, TEAPOT_PATCHES, METHOD_QI, prepare, error);
-    p.prepare = process_seconds() - start;
-    start = process_seconds();
+    p.prepare = usage_process() - start;
+    start = usage_process();
     trace_set(set, rays, VIEW_RAYS);
-    p.trace = process_seconds() - start;
+    p.trace = usage_process() - start;
     p.megabytes = (double)patchset_memory(set) * 1e-6;
     patchset_destroy(set);
     return p;
@@ -276,12 +277,12 @@ static void cuts_for_error(const Vec3 *points, double error, uint32_t cuts[TEAPO
 static Picture embree_picture(const Vec3 *points, const uint32_t *cuts, const Ray *rays) {
     Arena *arena = arena_create();
     Picture p;
-    double start = process_seconds();
+    double start = usage_process();
     EmbreeMesh *mesh = teapot_mesh(arena, points, cuts);
-    p.prepare = process_seconds() - start;
-    start = process_seconds();
+    p.prepare = usage_process() - start;
+    start = usage_process();
     trace_embree(mesh, rays, VIEW_RAYS);
-    p.trace = process_seconds() - start;
+    p.trace = usage_process() - start;
     p.megabytes = (double)mesh->bytes * 1e-6;
     embree_mesh_release(mesh);
     arena_destroy(arena);
@@ -378,17 +379,17 @@ void speed_lattices(const SpeedOptions *o) {
         Arena *arena = arena_create();
         const Vec3 *points = lattice_points(arena, size);
         const Ray *rays = view_rays(arena, VIEW_SCATTERED, points_bounds(points, 16 * size));
-        double start = process_seconds(), clock = progress_seconds();
+        double start = usage_process(), clock = usage_clock();
         PatchSet *set = committed(points, size, METHOD_QI, how, 1e-9);
-        double prepare = process_seconds() - start;
-        clock = progress_seconds() - clock;
+        double prepare = usage_process() - start;
+        clock = usage_clock() - clock;
         double used[MAX_ROUNDS];
         long hits = 0;
         Progress progress = progress_begin("lattice", (uint64_t)o->rounds, true);
         for (int round = 0; round < o->rounds; round++, progress_add(&progress, 1)) {
-            start = process_seconds();
+            start = usage_process();
             hits = trace_set(set, rays, VIEW_RAYS);
-            used[round] = process_seconds() - start;
+            used[round] = usage_process() - start;
         }
         progress_end(&progress);
         printf("| %zu | %s | %.3f | %.3f | %.1f | %.1f %% | %.0f |\n", size,
@@ -408,11 +409,11 @@ void speed_threads(const SpeedOptions *o) {
     Progress progress = progress_begin("threads", (uint64_t)o->rounds, true);
     for (int round = 0; round < o->rounds; round++, progress_add(&progress, 1)) {
         for (int threads = 1; threads <= 2; threads++) {
-            double start = progress_seconds();
+            double start = usage_clock();
 #pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
             for (long first = 0; first < VIEW_RAYS; first += 4096)
                 trace_set(set, rays + first, 4096);
-            used[threads - 1][round] = progress_seconds() - start;
+            used[threads - 1][round] = usage_clock() - start;
         }
     }
     progress_end(&progress);

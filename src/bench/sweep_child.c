@@ -2,6 +2,7 @@
 #include "bench/sweep_child.h"
 
 #include "base/diag.h"
+#include "base/usage.h"
 #include "bench/tracers.h"
 #include "render/camera.h"
 #include "render/render.h"
@@ -78,12 +79,6 @@ static double resident_megabytes(void) {
     return (double)resident * (double)sysconf(_SC_PAGESIZE) / 1048576.0;
 }
 
-static double peak_megabytes(void) {
-    struct rusage use;
-    getrusage(RUSAGE_SELF, &use);
-    return (double)use.ru_maxrss / 1024.0;
-}
-
 static size_t count_leaks(const Scene *scene, const PatchSetOptions *options,
                           const EdgeRays *edges) {
     PatchSet *set = patchset_create(options);
@@ -124,15 +119,15 @@ static void measure(const Scene *scene, const SweepOptions *o, const SweepPoint 
     patches.method = point->method;
     patches.tolerance = point->tolerance;
     patches.prepare = point->prepare;
-    double start = process_seconds();
+    double start = usage_process();
     World *world = world_create(scene, &patches);
-    shared->prepare = process_seconds() - start;
+    shared->prepare = usage_process() - start;
     // Again and again until the clock, which may tick 250 times a second, can tell.
     int times = 0;
-    start = process_seconds();
+    start = usage_process();
     do {
         look_around(scene, world, o->width, o->height, shared->looks);
-        shared->trace = (process_seconds() - start) / ++times;
+        shared->trace = (usage_process() - start) / ++times;
     } while (shared->trace * times < LEAST_TIME);
     world_destroy(world);
 
@@ -147,12 +142,12 @@ static void measure(const Scene *scene, const SweepOptions *o, const SweepPoint 
     render.prepare = point->prepare;
     render.prepare_given = true;
     times = 0;
-    start = process_seconds();
+    start = usage_process();
     do {
         put_picture(scene, &render, shared->pixels);
-        shared->picture = (process_seconds() - start) / ++times;
+        shared->picture = (usage_process() - start) / ++times;
     } while (shared->picture * times < LEAST_TIME);
-    shared->megabytes = peak_megabytes() - before;
+    shared->megabytes = usage_peak_megabytes() - before;
     if (edges)
         shared->leaks = count_leaks(scene, &patches, edges);
     shared->done = true;

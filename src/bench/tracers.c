@@ -2,13 +2,6 @@
 #include "bench/tracers.h"
 
 #include <math.h>
-#include <time.h>
-
-double process_seconds(void) {
-    struct timespec now;
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
 
 long trace_set(const void *set, const Ray *rays, long count) {
     long hits = 0;

@@ -17,6 +17,4 @@ long trace_set_packets(const void *set, const Ray *rays, long count); // PATCH_P
 long trace_embree(const void *mesh, const Ray *rays, long count);
 long trace_embree_packets(const void *mesh, const Ray *rays, long count); // count: times 16
 
-double process_seconds(void); // processor time of all threads
-
 #endif

@@ -4,7 +4,7 @@
 #include "base/console.h"
 #include "base/diag.h"
 #include "base/file.h"
-#include "base/progress.h"
+#include "base/usage.h"
 #include "base/version.h"
 #include "converter/convert.h"
 #include "options/animation.h"
@@ -18,7 +18,6 @@
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
-#include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -61,19 +60,6 @@ static void check_output(const char *path, Arena *arena) {
 static bool is_scene_file(const char *path) {
     size_t length = strlen(path);
     return length > 5 && strcasecmp(path + length - 5, ".json") == 0;
-}
-
-static double cpu_seconds(void) {
-    struct rusage use;
-    getrusage(RUSAGE_SELF, &use);
-    return (double)(use.ru_utime.tv_sec + use.ru_stime.tv_sec) +
-           1e-6 * (double)(use.ru_utime.tv_usec + use.ru_stime.tv_usec);
-}
-
-static double peak_megabytes(void) {
-    struct rusage use;
-    getrusage(RUSAGE_SELF, &use);
-    return (double)use.ru_maxrss / 1024.0;
 }
 
 // ---- statistics ------------------------------------------------------------------------------
@@ -125,8 +111,8 @@ static void print_statistics(const RenderOptions *o, const RenderStats *s, doubl
     console_print(CONSOLE_STATISTIC, "  Tracing                %15.3f s   %.3g rays/s\n",
                   s->trace_seconds, s->trace_seconds > 0 ? (double)rays / s->trace_seconds : 0.0);
     console_print(CONSOLE_STATISTIC,
-                  "  Processor time         %15.3f s   peak memory %.0f MB\n%s\n", cpu_seconds(),
-                  peak_megabytes(), rule);
+                  "  Processor time         %15.3f s   peak memory %.0f MB\n%s\n", usage_process(),
+                  usage_peak_megabytes(), rule);
 }
 
 // ---- main ----------------------------------------------------------------------------------
@@ -180,10 +166,10 @@ static void render_picture(RenderOptions *o, bool frame) {
     // Writing a file takes over the signals: for each picture anew.
     signal(SIGINT, on_interrupt);
     signal(SIGTERM, on_interrupt);
-    double start = progress_seconds();
+    double start = usage_clock();
     const Scene *scene =
         is_scene_file(o->input) ? scene_read(o->input, arena) : convert_scene(o, arena);
-    double read_seconds = progress_seconds() - start;
+    double read_seconds = usage_clock() - start;
     check_not_empty(scene, o->input);
 
     if (o->pixel[0] >= 0) {

@@ -3,12 +3,11 @@
 // A ray's time is the least of some rounds: what disturbs a measurement only makes it longer.
 #include "render/explain.h"
 
-#include "base/progress.h"
+#include "base/usage.h"
 #include "render/footprint.h"
 
 #include <math.h>
 #include <string.h>
-#include <time.h>
 
 enum { MOST_RAYS = 20000, ROUNDS = 3, SLOW = 10, MOST_VARIANTS = 3 };
 static const double ROUND_TIME = 0.02; // seconds, at least
@@ -55,12 +54,6 @@ static Sampling take_samples(const Scene *scene, const RenderOptions *o, Arena *
     return s;
 }
 
-static double thread_seconds(void) {
-    struct timespec now;
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
-
 static double mean_share(const Scene *scene, const PatchSetOptions *options) {
     double sum = 0.0;
     size_t count = 0;
@@ -98,16 +91,16 @@ static bool find_next(const Sampling *s, const Variant *own, bool coarser, Varia
 }
 
 static void prepare(const Sampling *s, Variant *v) {
-    double start = progress_seconds();
+    double start = usage_clock();
     const PatchSetOptions patches = render_patch_options(s->scene, &v->options, &v->footprint);
     v->world = world_create(s->scene, &patches);
-    v->prepare = progress_seconds() - start;
+    v->prepare = usage_clock() - start;
     v->looks = ARENA_ARRAY(s->arena, Look, s->count);
     v->ray = INFINITY;
 }
 
 static void trace(const Sampling *s, Variant *v) {
-    double start = thread_seconds(), took;
+    double start = usage_thread(), took;
     int times = 0;
     do {
         memset(&v->stats, 0, sizeof v->stats);
@@ -119,7 +112,7 @@ static void trace(const Sampling *s, Variant *v) {
             look->steps = v->stats.patch.steps + v->stats.patch.newton - before;
         }
         times++;
-        took = thread_seconds() - start;
+        took = usage_thread() - start;
     } while (took < ROUND_TIME);
     v->ray = fmin(v->ray, took / times / (double)s->count);
 }

@@ -6,6 +6,7 @@
 #include "base/diag.h"
 #include "base/hash.h"
 #include "base/progress.h"
+#include "base/usage.h"
 #include "render/aov.h"
 #include "render/film.h"
 #include "render/resume.h"
@@ -15,7 +16,6 @@
 #include <limits.h>
 #include <math.h>
 #include <omp.h>
-#include <time.h>
 #include <unistd.h>
 
 // A pixel's memory until its file is written: the colour (20 bytes), the developed values (16), the
@@ -293,10 +293,27 @@ static bool asks_uv(const Scene *scene) {
     return any;
 }
 
-static double process_seconds(void) {
-    struct timespec now;
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+// All tiles of the area; nothing if that is empty.
+static void trace_area(Job *job, RenderStats *stats) {
+    const RenderOptions *o = job->options;
+    int wide = job->area.right - job->area.left, high = job->area.bottom - job->area.top;
+    if (wide <= 0 || high <= 0)
+        return;
+    int longest = wide > high ? wide : high;
+    job->block = o->block_size < longest ? o->block_size : longest;
+    job->across = (wide + job->block - 1) / job->block;
+    job->count = job->across * ((high + job->block - 1) / job->block);
+    stats->pixels = (uint64_t)wide * (uint64_t)high;
+    if (stats->threads > job->count)
+        stats->threads = job->count;
+    job->progress =
+        progress_begin("rendering", stats->pixels, o->verbose && o->console[CONSOLE_RENDER]);
+    begin_resume(job);
+    double work = usage_process();
+    render_tiles(job, stats);
+    stats->work_seconds = usage_process() - work;
+    progress_end(&job->progress);
+    end_resume(job, stats);
 }
 
 Image *render_scene(const Scene *scene, const RenderOptions *o, Arena *arena,
@@ -306,7 +323,7 @@ Image *render_scene(const Scene *scene, const RenderOptions *o, Arena *arena,
     omp_set_num_threads(stats->threads);
 
     // Prepare the world.
-    double start = progress_seconds();
+    double start = usage_clock();
     Footprint footprint;
     PatchSetOptions patches = render_patch_options(scene, o, &footprint);
     World *world = world_create(scene, &patches);
@@ -317,34 +334,16 @@ Image *render_scene(const Scene *scene, const RenderOptions *o, Arena *arena,
     stats->memory = world_memory(world);
     for (uint32_t i = 0; i < scene->object_count; i++)
         stats->patches += scene->objects[i].type == OBJECT_PATCH;
-    stats->prepare_seconds = progress_seconds() - start;
+    stats->prepare_seconds = usage_clock() - start;
 
     // What lies outside the area stays as it is: black, and opaque.
-    start = progress_seconds();
+    start = usage_clock();
     Arena *scratch = arena_create();
     Job job = {.scene = scene, .options = o, .shading = shading, .area = render_area(o)};
     job.picture = ARENA_ARRAY(scratch, Color, (size_t)o->width * (size_t)o->height);
 
-    // Render the tiles.
-    int wide = job.area.right - job.area.left, high = job.area.bottom - job.area.top;
-    if (wide > 0 && high > 0) {
-        int longest = wide > high ? wide : high;
-        job.block = o->block_size < longest ? o->block_size : longest;
-        job.across = (wide + job.block - 1) / job.block;
-        job.count = job.across * ((high + job.block - 1) / job.block);
-        stats->pixels = (uint64_t)wide * (uint64_t)high;
-        if (stats->threads > job.count)
-            stats->threads = job.count;
-        job.progress =
-            progress_begin("rendering", stats->pixels, o->verbose && o->console[CONSOLE_RENDER]);
-        begin_resume(&job);
-        double work = process_seconds();
-        render_tiles(&job, stats);
-        stats->work_seconds = process_seconds() - work;
-        progress_end(&job.progress);
-        end_resume(&job, stats);
-    }
-    stats->trace_seconds = progress_seconds() - start;
+    trace_area(&job, stats);
+    stats->trace_seconds = usage_clock() - start;
 
     // Develop the film.
     Film film =

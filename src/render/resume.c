@@ -4,7 +4,7 @@
 #include "base/arena.h"
 #include "base/diag.h"
 #include "base/hash.h"
-#include "base/progress.h"
+#include "base/usage.h"
 
 #include <assert.h>
 #include <errno.h>
@@ -120,7 +120,7 @@ Resume *resume_create(const char *path, const ResumeJob *job, bool take_up) {
     r->colors = ARENA_ARRAY(arena, Color, most);
     if (take_up)
         take_up_file(r);
-    r->started = progress_seconds();
+    r->started = usage_clock();
     return r;
 }
 
@@ -189,7 +189,7 @@ void resume_tile(Resume *resume, int tile) {
         resume->state[tile] = DONE;
         if (resume->file)
             write_one(resume, tile);
-        else if (progress_seconds() - resume->started >= QUIET_SECONDS)
+        else if (usage_clock() - resume->started >= QUIET_SECONDS)
             write_done(resume);
     }
 }

@@ -3,7 +3,7 @@
 
 #include "base/diag.h"
 #include "base/file.h"
-#include "base/progress.h"
+#include "base/usage.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -90,7 +90,7 @@ Run run_command_line(Command *command, const char *name, const char *log, Arena 
     if (catching) // a file that was written in between (base/file.h) has taken the signals
         run_catch_signals();
     Run run = {.command = run_text(arena, command)};
-    double start = progress_seconds();
+    double start = usage_clock();
     fflush(NULL);
     // No signal may come between the fork and the moment when both know what to do with it.
     sigset_t all, before;
@@ -115,7 +115,7 @@ Run run_command_line(Command *command, const char *name, const char *log, Arena 
         if (errno != EINTR)
             die("cannot wait for %s: %s", command->words[0], strerror(errno));
     running = 0;
-    run.elapsed = progress_seconds() - start;
+    run.elapsed = usage_clock() - start;
     run.seconds = user_seconds(&use);
     run.megabytes = (double)use.ru_maxrss / 1024.0;
     const char *said = file_read(arena, log, NULL, NULL);

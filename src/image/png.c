@@ -74,6 +74,14 @@ static void put_row(const float *in, size_t count, int bits, png_bytep row) {
             row[2 * i] = (png_byte)(value >> 8);
             row[2 * i + 1] = (png_byte)(value & 255u);
         }
+    } else if (bits == 8) {
+        // As image_stored does it, in a form that becomes vectors.
+        for (size_t i = 0; i < count; i++) {
+            float clipped = in[i] > 0.0f ? in[i] : 0.0f, scaled;
+            scaled = (clipped < 1.0f ? clipped : 1.0f) * 255.0f;
+            int k = (int)scaled;
+            row[i] = (png_byte)(k + (scaled - (float)k >= 0.5f ? 1 : 0));
+        }
     } else {
         for (size_t i = 0; i < count; i++)
             row[i] = (png_byte)image_stored(in[i], bits, 8);

@@ -59,8 +59,9 @@ static void look_at_light(const Look *look, uint32_t light) {
             continue;
         const Ray to_light = {hit->p, sample->dir};
         WorldForeseen *shade = &ahead->shades[at * ahead->light_count + light];
-        if (world_ask(&asked, &to_light, shadow_near(shading, hit, sample->dir),
-                      shadow_limit(shading, sample->distance), RAY_SHADOW, shade))
+        sample->near = shadow_near(shading, hit, sample->dir);
+        if (world_ask(&asked, &to_light, sample->near, shadow_limit(shading, sample->distance),
+                      RAY_SHADOW, shade))
             sample->foreseen = shade;
     }
     world_foresee_some(shading->world, &asked, shading->all_opaque, &tracer->stats);

@@ -130,12 +130,13 @@ bool camera_aim(const CameraView *view, double x, double y, Ray *ray, double *a,
     y = (view->height - 1) - (y - 0.5);
     *a = x / view->width - 0.5;
     *b = y / view->height - 0.5;
+    if (camera->type == CAMERA_PERSPECTIVE) {
+        ray->dir = span(1.0, view->direction, *a, view->right, *b, view->up);
+        return true;
+    }
     double wide = 2.0 * x / view->width - 1.0, high = 2.0 * y / view->height - 1.0;
 
     switch (camera->type) {
-    case CAMERA_PERSPECTIVE:
-        ray->dir = span(1.0, view->direction, *a, view->right, *b, view->up);
-        return true;
     case CAMERA_ORTHOGRAPHIC:
         ray->org = span(1.0, camera->location, *a, view->right, *b, view->up);
         ray->dir = view->direction;
@@ -168,6 +169,7 @@ bool camera_aim(const CameraView *view, double x, double y, Ray *ray, double *a,
     case CAMERA_CYLINDER_4:
         cylinder(view, ray, a, b);
         return true;
+    case CAMERA_PERSPECTIVE:
     case CAMERA_SPHERICAL:
         break;
     }

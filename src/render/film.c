@@ -47,6 +47,7 @@ enum { TABLE_BITS = 8, SHIFT = 15, ONE = 0x3f800000, RUNS = (ONE >> SHIFT) + 1 }
 
 typedef struct FilmTable {
     float edge[(1 << TABLE_BITS) + 1]; // the last one: never reached
+    float value[1 << TABLE_BITS];
     uint8_t step[RUNS];
 } FilmTable;
 
@@ -88,6 +89,8 @@ void film_prepare(Film *film, Arena *arena) {
     FilmTable *table = ARENA_NEW(arena, FilmTable);
     for (int k = 0; k < steps; k++)
         table->edge[k] = float_of(first_of_step(film, k));
+    for (int k = 0; k < steps; k++)
+        table->value[k] = (float)k / (float)(steps - 1);
     table->edge[steps] = INFINITY;
     int k = 0;
     for (uint32_t run = 0; run < RUNS; run++) {
@@ -98,12 +101,7 @@ void film_prepare(Film *film, Arena *arena) {
     film->table = table;
 }
 
-static float develop_channel(const Film *film, float x) {
-    const FilmTable *table = film->table;
-    if (film->floats)
-        return transfer_apply(&film->transfer, x);
-    if (table == NULL)
-        return encode_and_round(film, x);
+static inline float look_up(const FilmTable *table, float x) {
     if (!(x > 0.0f)) // NaN: 0
         return 0.0f;
     if (x >= 1.0f)
@@ -111,7 +109,13 @@ static float develop_channel(const Film *film, float x) {
     int k = table->step[bits_of(x) >> SHIFT];
     while (x >= table->edge[k + 1])
         k++;
-    return (float)k / (float)((1 << film->bits) - 1);
+    return table->value[k];
+}
+
+static float develop_channel(const Film *film, float x) {
+    if (film->floats)
+        return transfer_apply(&film->transfer, x);
+    return film->table ? look_up(film->table, x) : encode_and_round(film, x);
 }
 
 // The linear values of a pixel's channels, as they are to be encoded. The last one is its opacity,
@@ -136,6 +140,12 @@ static void separate(const Film *film, Color color, float channel[4]) {
 }
 
 void film_develop(const Film *film, Color color, float *values) {
+    if (film->table && !film->grayscale && !film->alpha) { // nothing to separate
+        values[0] = look_up(film->table, color.r);
+        values[1] = look_up(film->table, color.g);
+        values[2] = look_up(film->table, color.b);
+        return;
+    }
     float channel[4];
     int count = film->grayscale ? 1 : 3;
     separate(film, color, channel);

@@ -7,8 +7,8 @@
 
 #include <math.h>
 
-void finish_diffuse(Tracer *tracer, const LitLayer *layer, Vec3 dir, const Rgb *light,
-                    bool backside, Rgb *color) {
+static inline void add_diffuse(Tracer *tracer, const LitLayer *layer, Vec3 dir, const Rgb *light,
+                               bool backside, Rgb *color) {
     const Finish *finish = layer->finish;
     double diffuse = backside ? finish->diffuse_back : finish->diffuse;
     if (diffuse <= 0.0)
@@ -41,7 +41,7 @@ static inline Rgb highlight_color(const LitLayer *layer, Vec3 dir, const Rgb *li
     return rgb_mul(*light, rgb_add(rgb(1.0f, 1.0f, 1.0f), tint));
 }
 
-void finish_phong(const LitLayer *layer, Vec3 eye, Vec3 dir, const Rgb *light, Rgb *color) {
+static void add_phong(const LitLayer *layer, Vec3 eye, Vec3 dir, const Rgb *light, Rgb *color) {
     const Finish *finish = layer->finish;
     Vec3 mirrored = vec_madd(eye, -2.0 * vec_dot(eye, layer->normal), layer->normal);
     double cosine = vec_dot(mirrored, dir);
@@ -54,7 +54,7 @@ void finish_phong(const LitLayer *layer, Vec3 eye, Vec3 dir, const Rgb *light, R
     *color = rgb_add(*color, rgb_scale(highlight_color(layer, dir, light), intensity));
 }
 
-void finish_specular(const LitLayer *layer, Vec3 eye, Vec3 dir, const Rgb *light, Rgb *color) {
+static void add_specular(const LitLayer *layer, Vec3 eye, Vec3 dir, const Rgb *light, Rgb *color) {
     const Finish *finish = layer->finish;
     Vec3 halfway = vec_scale(vec_sub(dir, eye), 0.5);
     double length = vec_length(halfway);
@@ -83,4 +83,22 @@ void finish_irid(const Scene *scene, const Finish *finish, Vec3 p, Vec3 eye, Vec
     color->r *= (float)(1.0 + finish->irid * cos(phase / wavelength.r));
     color->g *= (float)(1.0 + finish->irid * cos(phase / wavelength.g));
     color->b *= (float)(1.0 + finish->irid * cos(phase / wavelength.b));
+}
+
+void light_shine(Tracer *tracer, const LitLayer *layer, bool shadowless, const LightSample *s,
+                 bool backside, Rgb *color) {
+    const Surface *surface = layer->surface;
+    Rgb sum = {0};
+    Vec3 eye = surface->path->ray.dir;
+    add_diffuse(tracer, layer, s->dir, &s->color, backside, &sum);
+    if (!shadowless && !backside) {
+        if (layer->finish->phong > 0.0f)
+            add_phong(layer, eye, s->dir, &s->color, &sum);
+        if (layer->finish->specular > 0.0f)
+            add_specular(layer, eye, s->dir, &s->color, &sum);
+    }
+    if (layer->finish->irid > 0.0f)
+        finish_irid(tracer->shading->scene, layer->finish, surface->hit->p, eye, s->dir,
+                    layer->normal, &sum);
+    *color = rgb_add(*color, sum);
 }

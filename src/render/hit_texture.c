@@ -3,16 +3,11 @@
 // a mesh), which POV-Ray shades one by one and mixes by their weights.
 #include "render/shading.h"
 
-static uint32_t surface_texture(const Object *object, double normal_dot_dir) {
-    bool inside = normal_dot_dir > 0.0 && object->interior_texture != NO_INDEX;
-    return inside ? object->interior_texture : object->texture;
-}
-
-void hit_find_textures(const Scene *scene, WorldHit *hit, double normal_dot_dir) {
+void hit_find_other_textures(const Scene *scene, WorldHit *hit, double normal_dot_dir) {
     const Object *object = &scene->objects[hit->object];
     bool inside = normal_dot_dir > 0.0 && object->interior_texture != NO_INDEX;
     if (inside || hit->texture_count == 0) {
-        hit->textures[0] = (ShapeTexture){surface_texture(object, normal_dot_dir), 1.0f};
+        hit->textures[0] = (ShapeTexture){hit_own_texture(object, normal_dot_dir), 1.0f};
         hit->texture_count = 1;
     }
     for (uint32_t i = 0; i < hit->texture_count; i++) {

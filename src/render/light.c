@@ -107,24 +107,6 @@ bool light_behind(const LitLayer *layer, Vec3 dir, bool *dark) {
     return behind;
 }
 
-void light_shine(Tracer *tracer, const LitLayer *layer, bool shadowless, const LightSample *s,
-                 bool backside, Rgb *color) {
-    const Surface *surface = layer->surface;
-    Rgb sum = {0};
-    Vec3 eye = surface->path->ray.dir;
-    finish_diffuse(tracer, layer, s->dir, &s->color, backside, &sum);
-    if (!shadowless && !backside) {
-        if (layer->finish->phong > 0.0f)
-            finish_phong(layer, eye, s->dir, &s->color, &sum);
-        if (layer->finish->specular > 0.0f)
-            finish_specular(layer, eye, s->dir, &s->color, &sum);
-    }
-    if (layer->finish->irid > 0.0f)
-        finish_irid(tracer->shading->scene, layer->finish, surface->hit->p, eye, s->dir,
-                    layer->normal, &sum);
-    *color = rgb_add(*color, sum);
-}
-
 bool light_has_shadow(const Shading *shading, uint32_t index) {
     const Light *light = &shading->scene->lights[index];
     return shading->quality.shadows && (!light->shadowless || light->has_projection);

@@ -47,11 +47,6 @@ static Rgb fresnel_reflectivity(const Finish *finish, double n, double cosine, d
 
 void reflect_layer(const Shading *shading, const Surface *surface, const Finish *finish,
                    Vec3 normal, Rgb layer_color, LayerReflection *out) {
-    // Most surfaces.
-    if (!finish_reflects(finish)) {
-        out->reflectivity = (Rgb){0};
-        return;
-    }
     double cosine = -vec_dot(surface->path->ray.dir, normal);
     out->normal = normal;
     out->finish = finish;

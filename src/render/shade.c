@@ -46,11 +46,22 @@ static Rgb conserve_energy(Rgb through, Rgb reflectivity) {
                                 (float)(b < 1.0 ? b : 1.0)));
 }
 
+// What the layer reflects is traced when all layers are done.
+static Rgb add_reflection(Tracer *tracer, const Surface *surface, const LitLayer *layer,
+                          Layers *layers) {
+    LayerReflection *reflection = &tracer->reflections[layers->end];
+    reflection->weight = surface->path->weight * layers->translucency;
+    reflect_layer(tracer->shading, surface, layer->finish, layer->normal, layer->color, reflection);
+    if (!rgb_is_black(reflection->reflectivity))
+        layers->end++;
+    return reflection->reflectivity;
+}
+
 static void shade_layer(Tracer *tracer, const Surface *surface, const Layer *layer, Vec3 p,
                         Layers *layers) {
     const Shading *shading = tracer->shading;
     Vec3 normal = surface->normal;
-    if (shading->quality.normals)
+    if (layer->normal != NO_INDEX && shading->quality.normals)
         normal = texture_normal(shading->textures, layer, surface->spaces, surface->at, p, normal);
     uint32_t index = layers->count++;
     if (index == 0)
@@ -63,15 +74,12 @@ static void shade_layer(Tracer *tracer, const Surface *surface, const Layer *lay
         layers->color = color_rgb(c);
     } else {
         LitLayer lit = {surface, &layer->finish, normal, color_rgb(c), opacity(shading, c)};
-        LayerReflection reflection = {.weight = surface->path->weight * layers->translucency};
-        reflect_layer(shading, surface, lit.finish, lit.normal, lit.color, &reflection);
-        reflectivity = reflection.reflectivity;
+        if (finish_reflects(lit.finish))
+            reflectivity = add_reflection(tracer, surface, &lit, layers);
         Rgb light = layer_light(tracer, &lit);
         if (tracer->story)
             story_layer(tracer->story, surface->path, index, c, lit.opacity, reflectivity, light);
         layers->color = rgb_add(layers->color, rgb_mul(light, layers->through));
-        if (reflectivity.r != 0.0f || reflectivity.g != 0.0f || reflectivity.b != 0.0f)
-            tracer->reflections[layers->end++] = reflection;
     }
     if (found) {
         layers->through = rgb_mul(layers->through, color_through(c));
@@ -159,6 +167,11 @@ static void shade_plain(Tracer *tracer, const Surface *surface, const Texture *t
 // Textures in a map are shaded to the end, reflections and all, and the colours are mixed.
 static void shade_texture(Tracer *tracer, const Surface *surface, uint32_t index, Vec3 p,
                           Color *color) {
+    const Texture *texture = &tracer->shading->scene->textures[index];
+    if (texture_is_plain(texture)) {
+        shade_plain(tracer, surface, texture, p, color);
+        return;
+    }
     TextureChoice choice =
         texture_choose(tracer->shading->textures, index, surface->spaces, surface->at, p);
     if (choice.layers != NULL) {

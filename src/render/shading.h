@@ -97,6 +97,7 @@ typedef struct {
     double attenuation;
     bool ready, shadow_done;
     const WorldForeseen *foreseen; // what the ray to it meets of the patches; NULL: unknown
+    WorldNear near;                // from where on; of those that are foreseen
 } LightSample;
 
 // A layer's reflection, kept until the layers are all done.
@@ -199,7 +200,20 @@ void shade_hit(Tracer *tracer, const Path *path, WorldHit *hit, Color *color);
 // hit_texture.c
 // Puts in the hit's list the textures that it shows on that side, as they are where an instance
 // shows them: at least one. In place, since rays nest in the hits of others.
-void hit_find_textures(const Scene *scene, WorldHit *hit, double normal_dot_dir);
+void hit_find_other_textures(const Scene *scene, WorldHit *hit, double normal_dot_dir);
+static inline uint32_t hit_own_texture(const Object *object, double normal_dot_dir) {
+    bool inside = normal_dot_dir > 0.0 && object->interior_texture != NO_INDEX;
+    return inside ? object->interior_texture : object->texture;
+}
+static inline void hit_find_textures(const Scene *scene, WorldHit *hit, double normal_dot_dir) {
+    if (hit->texture_count > 0 || hit->instance != NO_INDEX) {
+        hit_find_other_textures(scene, hit, normal_dot_dir);
+        return;
+    }
+    uint32_t own = hit_own_texture(&scene->objects[hit->object], normal_dot_dir);
+    hit->textures[0] = (ShapeTexture){own, 1.0f};
+    hit->texture_count = 1;
+}
 // Of a hit: its body; and whether a shadow ray ends there without looking at the texture.
 static inline uint32_t hit_body(const Shading *shading, uint32_t object, uint32_t instance) {
     return instance == NO_INDEX ? shading->objects[object].body
@@ -231,9 +245,6 @@ bool light_aim(const Shading *shading, uint32_t index, Vec3 p, Vec3 offset, Ligh
 static inline bool light_is_black(const Rgb *c) {
     return fabsf(c->r) < SHADE_EPS && fabsf(c->g) < SHADE_EPS && fabsf(c->b) < SHADE_EPS;
 }
-// One light, from one direction: what the finish makes of it.
-void light_shine(Tracer *tracer, const LitLayer *layer, bool shadowless, const LightSample *sample,
-                 bool backside, Rgb *color);
 // Is it behind the surface? False also where that does not matter. *dark: then nothing is lit.
 bool light_behind(const LitLayer *layer, Vec3 dir, bool *dark);
 
@@ -260,11 +271,10 @@ double shadow_filter_point(Tracer *tracer, uint32_t light, const WorldHit *from,
 void shadow_fog(const Shading *shading, uint32_t light, Ray ray, double distance,
                 const InteriorList *inside, Rgb *color);
 
-// finish.c: one light, dir unit and towards it.
-void finish_diffuse(Tracer *tracer, const LitLayer *layer, Vec3 dir, const Rgb *light,
-                    bool backside, Rgb *color);
-void finish_phong(const LitLayer *layer, Vec3 eye, Vec3 dir, const Rgb *light, Rgb *color);
-void finish_specular(const LitLayer *layer, Vec3 eye, Vec3 dir, const Rgb *light, Rgb *color);
+// finish.c
+// One light, from one direction: what the finish makes of it.
+void light_shine(Tracer *tracer, const LitLayer *layer, bool shadowless, const LightSample *sample,
+                 bool backside, Rgb *color);
 void finish_irid(const Scene *scene, const Finish *finish, Vec3 p, Vec3 eye, Vec3 dir, Vec3 normal,
                  Rgb *color);
 // The empirical Fresnel curve that `metallic` uses: 0 head-on to 1 at grazing cosines.

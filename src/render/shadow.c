@@ -253,7 +253,7 @@ void shadow_filter(Tracer *tracer, uint32_t light, const WorldHit *from, LightSa
                    const InteriorList *inside) {
     const Shading *shading = tracer->shading;
     Ray ray = {from->p, s->dir};
-    WorldNear near = shadow_near(shading, from, s->dir);
+    WorldNear near = s->foreseen ? s->near : shadow_near(shading, from, s->dir);
     // One question, as a rule.
     if (shading->all_opaque && shading->projections[light] == NULL &&
         shading->scene->fog_count == 0) {

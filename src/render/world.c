@@ -57,7 +57,7 @@ static bool is_admitted(RayQuery *query, const Leaf *leaf) {
     return query->admits;
 }
 
-static bool comes_first(const RayQuery *query, double t, double depth, const Leaf *leaf) {
+static inline bool comes_first(const RayQuery *query, double t, double depth, const Leaf *leaf) {
     if (fabs(t - query->t) > query->slack)
         return t < query->t;
     if (query->outer)
@@ -65,13 +65,8 @@ static bool comes_first(const RayQuery *query, double t, double depth, const Lea
     return depth < query->depth || (depth == query->depth && leaf->rank < query->rank);
 }
 
-// *t: what decides.
-static bool counts(RayQuery *query, double depth, double t_min, const Leaf *leaf, double *t) {
-    *t = depth;
-    if (!(depth >= t_min && comes_first(query, depth, depth, leaf)))
-        return false;
-    if (!leaf->watched)
-        return true;
+// Of a leaf that trees or bounds may hide.
+static bool is_let_through(RayQuery *query, double depth, const Leaf *leaf, double *t) {
     Vec3 p = vec_madd(query->ray->org, depth, query->ray->dir);
     if (!csg_keeps(&query->world->csg, leaf->node, p, query->kind) || !is_admitted(query, leaf))
         return false;
@@ -79,7 +74,15 @@ static bool counts(RayQuery *query, double depth, double t_min, const Leaf *leaf
     return comes_first(query, *t, depth, leaf);
 }
 
-static void keep(RayQuery *query, double t, double depth, const Leaf *leaf) {
+// *t: what decides.
+static inline bool counts(RayQuery *query, double depth, double t_min, const Leaf *leaf,
+                          double *t) {
+    *t = depth;
+    return depth >= t_min && comes_first(query, depth, depth, leaf) &&
+           (!leaf->watched || is_let_through(query, depth, leaf, t));
+}
+
+static inline void keep(RayQuery *query, double t, double depth, const Leaf *leaf) {
     query->t = t;
     query->depth = depth;
     query->slack = 0.0;
@@ -243,10 +246,12 @@ static void try_prims(RayQuery *query) {
         if (prim->leaf.gate == NO_INDEX || is_admitted(query, &prim->leaf))
             try_prim(query, prim);
     }
+    // In many scenes the patches are all that is in the tree.
+    bool left = world->tree_count > (world->patches_in_tree && query->patches_done ? 1 : 0);
     double t_min = query->t_min;
     if (world->patches_in_tree)
         t_min = fmin(t_min, query->patch_min);
-    if (world->tree_count > 0 && !(query->any && query->leaf))
+    if (left && !(query->any && query->leaf))
         bvh_walk(&world->tree, query->ray, fmax(t_min, 0.0), limit_of(query), try_item, query);
     if (!world->patches_in_tree && !query->patches_done && !(query->any && query->leaf))
         try_patches(query);
@@ -306,17 +311,17 @@ static void try_instance(RayQuery *query, const Prim *prim) {
     query->patch = sub.patch;
 }
 
-// The same ray with a unit direction; the old one's length, 0 if nothing can be asked of it (no
-// direction, numbers that are not finite).
-static double unit_ray(const Ray *ray, Ray *unit) {
-    *unit = *ray;
+// The same ray with a unit direction, in *room if it is not this one; *length: the old one's. NULL:
+// nothing can be asked of it (no direction, numbers that are not finite).
+static inline const Ray *unit_ray(const Ray *ray, Ray *room, double *length) {
+    *length = 1.0;
     if (ray_is_unit(ray))
-        return 1.0;
-    double length = vec_length(ray->dir);
-    if (!vec_is_finite(ray->org) || !(length > 0.0) || !isfinite(length))
-        return 0.0;
-    unit->dir = vec_scale(ray->dir, 1.0 / length);
-    return length;
+        return ray;
+    *length = vec_length(ray->dir);
+    if (!vec_is_finite(ray->org) || !(*length > 0.0) || !isfinite(*length))
+        return NULL;
+    *room = (Ray){ray->org, vec_scale(ray->dir, 1.0 / *length)};
+    return room;
 }
 
 static double patch_least(const World *world, double t) {
@@ -438,27 +443,29 @@ bool world_nearest(const World *world, const Ray *ray, WorldNear near, double t_
 bool world_nearest_foreseen(const World *world, const Ray *ray, WorldNear near, double t_max,
                             RayKind kind, const WorldForeseen *foreseen, RayStats *stats,
                             WorldHit *hit) {
-    Ray unit;
+    Ray room;
     RayStats unused;
     if (!stats) {
         unused = (RayStats){0};
         stats = &unused;
     }
-    double length = unit_ray(ray, &unit);
-    if (!(length > 0.0))
+    double length;
+    const Ray *unit = unit_ray(ray, &room, &length);
+    if (!unit)
         return false;
     RayQuery query;
-    query_start(&query, world, &unit, &near, length, t_max, stats);
+    query_start(&query, world, unit, &near, length, t_max, stats);
     query.kind = kind;
-    query.any = query.patches_done = false;
+    query.any = false;
     query.foreseen = foreseen != NULL;
+    query.patches_done = query.foreseen && !world->filtered;
     if (foreseen && foreseen->found)
         try_patch_hit(&query, &foreseen->hit);
     try_prims(&query);
     if (!query.leaf)
         return false;
     hit->t = query.depth / length;
-    hit->p = vec_madd(unit.org, query.depth, unit.dir);
+    hit->p = vec_madd(unit->org, query.depth, unit->dir);
     hit->object = query.leaf->object;
     hit->instance = NO_INDEX;
     if (query.outer)
@@ -483,17 +490,18 @@ bool world_blocked(const World *world, const Ray *ray, WorldNear near, double t_
 
 bool world_blocked_foreseen(const World *world, const Ray *ray, WorldNear near, double t_max,
                             const WorldForeseen *foreseen, uint32_t *last, RayStats *stats) {
-    Ray unit;
+    Ray room;
     RayStats unused;
     if (!stats) {
         unused = (RayStats){0};
         stats = &unused;
     }
-    double length = unit_ray(ray, &unit);
-    if (!(length > 0.0))
+    double length;
+    const Ray *unit = unit_ray(ray, &room, &length);
+    if (!unit)
         return false;
     RayQuery query;
-    query_start(&query, world, &unit, &near, length, t_max, stats);
+    query_start(&query, world, unit, &near, length, t_max, stats);
     query.kind = RAY_SHADOW;
     query.any = query.patches_done = true; // those by the quickest way, below
     query.foreseen = false;
@@ -507,7 +515,7 @@ bool world_blocked_foreseen(const World *world, const Ray *ray, WorldNear near, 
     if (foreseen) {
         if (foreseen->found)
             return true;
-    } else if (world->patches && patchset_occluded(world->patches, &unit, patch_min, query.t,
+    } else if (world->patches && patchset_occluded(world->patches, unit, patch_min, query.t,
                                                    RAY_SHADOW, &query.stats->patch)) {
         return true;
     }
@@ -515,7 +523,7 @@ bool world_blocked_foreseen(const World *world, const Ray *ray, WorldNear near, 
     if (query.leaf)
         *last = (uint32_t)((query.outer ? query.outer : query.prim) - world->prims);
     if (!query.leaf && world->filtered)
-        patchset_all(world->filtered, &unit, patch_min, query.t, RAY_SHADOW, &query.stats->patch,
+        patchset_all(world->filtered, unit, patch_min, query.t, RAY_SHADOW, &query.stats->patch,
                      try_patch_hit, &query);
     return query.leaf != NULL;
 }

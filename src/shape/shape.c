@@ -120,7 +120,7 @@ static Vec3 normal_of(const Shape *shape, Vec3 p, const ShapeHit *hit) {
     return vec3(0, 1, 0);
 }
 
-Vec3 shape_normal(const Shape *shape, Vec3 p, const ShapeHit *hit) {
+Vec3 shape_normal_of(const Shape *shape, Vec3 p, const ShapeHit *hit) {
     Vec3 normal = normal_of(shape, p, hit);
     bool turned =
         shape->inverse && !(shape->kind == SHAPE_SOLID && shape->as.solid.ops->keeps_normal);
@@ -145,11 +145,6 @@ Vec2 shape_uv(const Shape *shape, Vec3 p, const ShapeHit *hit) {
 bool shape_maps_uv(const Shape *shape) {
     return shape->kind == SHAPE_SPHERE || shape->kind == SHAPE_BOX || shape->kind == SHAPE_TORUS ||
            (shape->kind == SHAPE_SOLID && shape->as.solid.ops->uv);
-}
-
-uint32_t shape_textures(const Shape *shape, Vec3 p, const ShapeHit *hit,
-                        ShapeTexture out[SHAPE_MAX_TEXTURES]) {
-    return shape->kind == SHAPE_SOLID ? solid_textures(shape, p, hit, out) : 0;
 }
 
 bool shape_inside(const Shape *shape, Vec3 p) {

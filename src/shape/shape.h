@@ -126,11 +126,18 @@ typedef struct {
     float weight;
 } ShapeTexture;
 enum { SHAPE_MAX_TEXTURES = HIT_MAX_TEXTURES };
-uint32_t shape_textures(const Shape *shape, Vec3 p, const ShapeHit *hit,
+uint32_t solid_textures(const Shape *shape, Vec3 p, const ShapeHit *hit,
                         ShapeTexture out[SHAPE_MAX_TEXTURES]);
+static inline uint32_t shape_textures(const Shape *shape, Vec3 p, const ShapeHit *hit,
+                                      ShapeTexture out[SHAPE_MAX_TEXTURES]) {
+    return shape->kind == SHAPE_SOLID ? solid_textures(shape, p, hit, out) : 0;
+}
 // Unit normal at p, the point of a hit; points out of the inside, `inverse` applied (but not to
 // quadrics).
-Vec3 shape_normal(const Shape *shape, Vec3 p, const ShapeHit *hit);
+Vec3 shape_normal_of(const Shape *shape, Vec3 p, const ShapeHit *hit);
+static inline Vec3 shape_normal(const Shape *shape, Vec3 p, const ShapeHit *hit) {
+    return shape->kind == SHAPE_PLANE ? shape->as.plane.normal : shape_normal_of(shape, p, hit);
+}
 // Texture coordinates at p. Sphere, box and torus have a mapping of their own; for the others
 // POV-Ray takes the world's x and y.
 Vec2 shape_uv(const Shape *shape, Vec3 p, const ShapeHit *hit);

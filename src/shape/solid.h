@@ -41,8 +41,6 @@ void solid_visit(const Shape *shape, const Ray *ray, double unit, double t_min, 
                  ShapeVisit visit, void *context);
 Vec3 solid_normal(const Shape *shape, Vec3 p, const ShapeHit *hit);
 Vec2 solid_uv(const Shape *shape, Vec3 p, const ShapeHit *hit);
-uint32_t solid_textures(const Shape *shape, Vec3 p, const ShapeHit *hit,
-                        ShapeTexture out[SHAPE_MAX_TEXTURES]);
 bool solid_inside(const Shape *shape, Vec3 p);
 Box solid_bounds(const Shape *shape);
 

@@ -33,6 +33,11 @@ typedef struct {
     bool average;
 } TextureChoice;
 
+// Layers where they are: there is nothing to choose.
+static inline bool texture_is_plain(const Texture *texture) {
+    return texture->layer_count > 0 && !texture->uv_mapping &&
+           texture->pattern.type == PATTERN_PLAIN;
+}
 TextureChoice texture_choose(const Textures *textures, uint32_t texture, TextureSpaces *spaces,
                              const TextureHit *hit, Vec3 p);
 

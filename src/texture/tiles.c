@@ -13,7 +13,8 @@ static const double HEXAGON_PERIOD = 5.196152424; // 6 times that
 // Rounds towards minus infinity, but whole negative numbers go one further down.
 static double floor_mirrored(double x) { return x >= 0.0 ? floor(x) : -floor(-x) - 1.0; }
 
-static bool is_odd(double whole) { return fmod(whole, 2.0) != 0.0; }
+// Half of it is exact.
+static bool is_odd(double whole) { return floor(0.5 * whole) != 0.5 * whole; }
 
 // The parity of the unit cube; EPS keeps points on its faces in it.
 double tiles_checker(Vec3 p) {

@@ -39,7 +39,8 @@ typedef struct {
 
 static const Bad BAD[] = {
     {"missing file", NULL, NULL, 1, "bad.pov"},
-    {"empty file", "", NULL, 1, "bad.pov"},
+    {"empty file", "", NULL, 1, "bad.pov' is empty"},
+    {"blank file", " \n\t\r\n", NULL, 1, "bad.pov' is empty"},
     {"unclosed brace", CAMERA "sphere { 0, 1\n", NULL, 1, "bad.pov:3:1: error: "},
     {"endless loop", "#while (1)\n#end\n", NULL, 1, "bad.pov:1:"},
     {"endless recursion", "#macro A() A() #end A()\n", NULL, 1, "bad.pov:1:"},
@@ -56,8 +57,9 @@ static const Bad BAD[] = {
      CAMERA "#declare S = sphere { 0, 1 pigment { rgb 1 } }\n"
             "#for (I, 1, 900) #declare S = difference { object { S } sphere { 9, 1 } } #end S\n",
      "+W4 +H3", 0, ""},
-    {"nothing to see", CAMERA, NULL, 1, "no objects"},
-    // The first frames of an animation may be empty; before, no picture was written.
+    // POV-Ray's picture is black; so may be the first frames of an animation. Before, there was
+    // none.
+    {"nothing to see", CAMERA, "+W4 +H3", 0, "the picture is black"},
     {"only a light", CAMERA "light_source { 9, 1 }\n", "+W4 +H3", 0, "no objects"},
     {"only a sky", "sky_sphere { pigment { rgb 1 } }\n", NULL, 0, "no objects"},
     {"width 0", CAMERA, "+W0 +H12", 1, "must be at least 1"},

@@ -118,15 +118,18 @@ static void print_statistics(const RenderOptions *o, const RenderStats *s, doubl
 // ---- main ----------------------------------------------------------------------------------
 
 // POV-Ray renders a scene without objects: a sky may be all that is wanted, or the objects of an
-// animation come later. Where there is not even a light the file is not what its author thinks it
-// is; mostly one that is to be included.
-static void check_not_empty(const Scene *scene, const char *file) {
+// animation come later. Where there is not even a light the file is mostly one to be included.
+static void check_not_empty(const Scene *scene, const char *file, Arena *arena) {
     const Color *b = &scene->settings.background;
-    if (scene->root_count == 0 && scene->light_count == 0 && !scene->has_sky_sphere && b->r == 0 &&
-        b->g == 0 && b->b == 0)
-        die("'%s' shows no objects, no lights, no sky_sphere and no background: there is nothing "
-            "to render; is it to be included by another file?",
-            file);
+    if (scene->root_count > 0 || scene->has_sky_sphere || b->r != 0 || b->g != 0 || b->b != 0)
+        return;
+    const char *text = file_read(arena, file, NULL, NULL);
+    if (text && text[strspn(text, " \t\r\n")] == '\0')
+        die("'%s' is empty: there is nothing to render", file);
+    if (scene->light_count == 0)
+        warn("'%s' shows no lights, no sky_sphere and no background either: the picture is black; "
+             "is it to be included by another file?",
+             file);
 }
 
 // The picture, and its further channels: in one EXR file, or in one beside it.
@@ -170,7 +173,7 @@ static void render_picture(RenderOptions *o, bool frame) {
     const Scene *scene =
         is_scene_file(o->input) ? scene_read(o->input, arena) : convert_scene(o, arena);
     double read_seconds = usage_clock() - start;
-    check_not_empty(scene, o->input);
+    check_not_empty(scene, o->input, arena);
 
     if (o->pixel[0] >= 0) {
         render_pixel(scene, o, stdout);

@@ -157,15 +157,16 @@ typedef struct {
     uint32_t count; // of those remembered; of all parts when there are too many
     bool all;
     Interval intervals[REMEMBERED];
+    double peaks[REMEMBERED]; // the most that each field comes to on the ray
     uint32_t parts[REMEMBERED];
 } Crossed;
 
-static bool crossed_at(const Crossed *crossed, uint32_t i, const Part **part, Interval *interval) {
-    *part = &crossed->blob->parts[crossed->all ? i : crossed->parts[i]];
-    if (crossed->all)
-        return part_interval(*part, crossed->ray, crossed->origin, interval);
-    *interval = crossed->intervals[i];
-    return true;
+// A field that takes away comes to nothing at its end.
+static double peak_of(const Part *part, const Interval *i) {
+    const double *k = part->c;
+    double q = i->a > 0.0 ? i->c - i->b * i->b / i->a : i->c;
+    q = q < 0.0 ? 0.0 : q;
+    return k[0] > 0.0 ? k[0] + q * (k[1] + q * k[2]) : 0.0;
 }
 
 static void cross_parts(Crossed *crossed, double nearest) {
@@ -184,20 +185,22 @@ static void cross_parts(Crossed *crossed, double nearest) {
             return;
         }
         crossed->intervals[crossed->count] = interval;
+        crossed->peaks[crossed->count] = peak_of(&blob->parts[i], &interval);
         crossed->parts[crossed->count++] = i;
     }
 }
 
-// The stretch that begins at `from`: the sum of the fields there, and where it ends.
+// The stretch that begins at `from`: the sum of the fields there, and where it ends. Each interval
+// is worked out anew.
 static double next_stretch(const Crossed *crossed, double from, double sum[5], bool *any) {
     double end = INFINITY;
     *any = false;
     sum[0] = -crossed->blob->threshold;
     sum[1] = sum[2] = sum[3] = sum[4] = 0.0;
     for (uint32_t i = 0; i < crossed->count; i++) {
-        const Part *part;
+        const Part *part = &crossed->blob->parts[i];
         Interval interval;
-        if (!crossed_at(crossed, i, &part, &interval))
+        if (!part_interval(part, crossed->ray, crossed->origin, &interval))
             continue;
         if (interval.enter > from) {
             end = fmin(end, interval.enter);
@@ -208,6 +211,92 @@ static double next_stretch(const Crossed *crossed, double from, double sum[5], b
         }
     }
     return end;
+}
+
+static void put_roots(const Crossed *crossed, const double sum[5], double from, double to,
+                      HitSink *sink) {
+    double roots[4];
+    int count = roots_find(sum, 4, from, to, roots);
+    for (int i = 0; i < count; i++)
+        sink_put(sink, crossed->origin + roots[i], 0, vec3(0, 0, 0));
+}
+
+static void walk_all(const Crossed *crossed, double from, HitSink *sink) {
+    for (;;) {
+        double sum[5];
+        bool any;
+        double to = next_stretch(crossed, from, sum, &any);
+        if (!(to < INFINITY) || crossed->origin + from > sink->t_max)
+            return;
+        if (any)
+            put_roots(crossed, sum, from, to, sink);
+        from = to;
+    }
+}
+
+// ---- the same with all intervals remembered: of parts around a stretch there is a bit each -----
+
+typedef struct {
+    double at;
+    uint32_t interval;
+    bool leaves;
+} Border;
+
+_Static_assert(REMEMBERED <= 64, "one bit each");
+
+// The borders beyond `from`, ascending; *around: the intervals that are open there.
+static uint32_t sort_borders(const Crossed *crossed, double from, Border *borders,
+                             uint64_t *around) {
+    uint32_t count = 0;
+    *around = 0;
+    for (uint32_t i = 0; i < crossed->count; i++) {
+        const Interval *interval = &crossed->intervals[i];
+        if (interval->enter <= from)
+            *around |= (uint64_t)1 << i;
+        for (int leaves = interval->enter <= from; leaves < 2; leaves++) {
+            double at = leaves ? interval->leave : interval->enter;
+            uint32_t place = count++;
+            for (; place > 0 && borders[place - 1].at > at; place--)
+                borders[place] = borders[place - 1];
+            borders[place] = (Border){at, i, leaves};
+        }
+    }
+    return count;
+}
+
+// Does the sum of the fields come to the threshold? Their peaks, as far from right as the sum is,
+// tell mostly that it doesn't; the slack is for parts 1e6 radii from the place where depths begin.
+static bool may_reach(const Crossed *crossed, uint64_t around) {
+    double most = 0.0, size = 0.0;
+    for (; around; around &= around - 1) {
+        int i = __builtin_ctzll(around);
+        most += crossed->peaks[i];
+        size += fabs(crossed->blob->parts[crossed->parts[i]].c[0]);
+    }
+    return !(most < crossed->blob->threshold - 1e-3 * size);
+}
+
+static void walk_borders(const Crossed *crossed, double from, HitSink *sink) {
+    Border borders[2 * REMEMBERED];
+    uint64_t around;
+    uint32_t count = sort_borders(crossed, from, borders, &around);
+    for (uint32_t k = 0; k < count;) {
+        double to = borders[k].at;
+        if (!(to < INFINITY) || crossed->origin + from > sink->t_max)
+            return;
+        if (around && may_reach(crossed, around)) {
+            double sum[5] = {-crossed->blob->threshold, 0, 0, 0, 0};
+            for (uint64_t rest = around; rest; rest &= rest - 1) {
+                int i = __builtin_ctzll(rest);
+                add_field(&crossed->blob->parts[crossed->parts[i]], &crossed->intervals[i], sum);
+            }
+            put_roots(crossed, sum, from, to, sink);
+        }
+        for (from = to; k < count && borders[k].at <= from; k++) {
+            uint64_t bit = (uint64_t)1 << borders[k].interval;
+            around = borders[k].leaves ? around & ~bit : around | bit;
+        }
+    }
 }
 
 static void hits(const void *data, const Ray *ray, HitSink *sink) {
@@ -222,17 +311,10 @@ static void hits(const void *data, const Ray *ray, HitSink *sink) {
     crossed.all = false;
     double from = sink->near * sink->scale - crossed.origin;
     cross_parts(&crossed, from);
-    for (;;) {
-        double sum[5], roots[4];
-        bool any;
-        double to = next_stretch(&crossed, from, sum, &any);
-        if (!(to < INFINITY) || crossed.origin + from > sink->t_max)
-            return;
-        int count = any ? roots_find(sum, 4, from, to, roots) : 0;
-        for (int i = 0; i < count; i++)
-            sink_put(sink, crossed.origin + roots[i], 0, vec3(0, 0, 0));
-        from = to;
-    }
+    if (crossed.all)
+        walk_all(&crossed, from, sink);
+    else
+        walk_borders(&crossed, from, sink);
 }
 
 // The square of the distance; false: outside the part.

@@ -9,6 +9,7 @@
 #include "kernel/ray.h"
 #include "kernel/search.h"
 #include "kernel/simd.h"
+#include "patch/classes.h"
 
 typedef struct {
     float near;
@@ -194,6 +195,8 @@ static bool visit_block(Walk *walk, const Block *block) {
         walk->patch = block->patch[i];
         patch_ray_init(&walk->ray, &accel->patches[walk->patch], &walk->query->ray, walk->dir,
                        walk->t_per_s);
+        if (patch_ray_misses(&walk->ray))
+            continue;
         const Piece *piece = accel_piece(accel, walk->piece);
         if (!search_rect(walk, piece, piece_rect(piece)))
             return false;
@@ -201,7 +204,13 @@ static bool visit_block(Walk *walk, const Block *block) {
     return true;
 }
 
-// Pieces of every leaf, for rays that come from too far away for the boxes.
+static bool visit_near(void *walk, uint32_t leaf, TreeRay *ray) {
+    (void)ray;
+    return visit_block(walk, accel_block(((Walk *)walk)->accel, leaf));
+}
+
+// Pieces of every leaf, for rays that come from too far away for the boxes. Of one class of several
+// those that the ray meets on its way, wherever it begins.
 static void visit_all(Walk *walk) {
     const Accel *accel = walk->accel;
     TreeRay ray;
@@ -210,6 +219,15 @@ static void visit_all(Walk *walk) {
         return;
     walk->dir = ray.unit;
     walk->t_per_s = accel->tree.scale / ray.s_per_t;
+    Ray near;
+    if (accel->is_class && classes_near(accel, &walk->query->ray, &near)) {
+        if (!tree_ray_begin(&accel->tree, &near, -INFINITY, INFINITY, &ray))
+            return;
+        if (!ray.far) {
+            tree_walk(&accel->tree, &ray, visit_near, walk);
+            return;
+        }
+    }
     for (uint32_t at = 0; at < accel->line_count;) {
         const Block *block = accel_block(accel, at);
         if (!visit_block(walk, block))

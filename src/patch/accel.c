@@ -2,8 +2,8 @@
 // METHOD_QI: builds, hands questions to the kernel in use, and takes what it finds.
 #include "patch/accel.h"
 
+#include "patch/classes.h"
 #include "patch/kernels.h"
-#include "patch/piece.h"
 #include "patch/walk.h"
 
 // Does the surface, on the way from one to the other, leave the ray by more than the tolerance?
@@ -88,18 +88,21 @@ bool walk_take(Walk *walk, const Root *root) {
 }
 
 Accel *accel_create(Arena *arena, const PatchDef *defs, size_t count, PatchPrepare prepare) {
-    Accel *accel = ARENA_NEW(arena, Accel);
-    pieces_build(arena, defs, count, prepare, accel);
-    return accel;
+    return classes_build(arena, defs, count, prepare);
 }
 
 void accel_query(const Accel *accel, Query *query) {
     Walk walk;
-    walk.accel = accel;
     walk.query = query;
     walk.t_limit = query->t_max;
-    walk.t_least = -INFINITY;
-    kernels_chosen()->query(&walk);
-    if (query->kind == QUERY_NEAREST && query->found)
-        query->t_max = query->best.t;
+    walk.best_patch = walk.best_piece = 0;
+    for (; accel && !query_done(query); accel = accel->next) {
+        walk.accel = accel;
+        walk.t_least = -INFINITY;
+        kernels_chosen()->query(&walk);
+        if (query->kind == QUERY_NEAREST && query->found)
+            query->t_max = query->best.t;
+        // Of hits in the same place that of the larger patch is kept.
+        walk.best_patch = walk.best_piece = 0;
+    }
 }

@@ -319,7 +319,7 @@ static PatchRange range_of(const PatchRange *ranges, size_t i) {
 
 static void ask_packet(const PatchSet *set, const Packet *packet, PatchStats *stats, bool *found) {
     PacketAnswer answer = {0, (1u << packet->count) - 1};
-    if (set->accel && !set->rational && !set->shift)
+    if (set->accel && !set->accel->next && !set->rational && !set->shift)
         answer = kernels_chosen()->packet(packet);
     if (stats)
         stats->hits += (uint64_t)__builtin_popcount(answer.found);

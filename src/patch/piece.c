@@ -525,13 +525,13 @@ static void cut_all(const Accel *accel, size_t limit, CutList *all) {
     array_free(&lists);
 }
 
-void pieces_build(Arena *arena, const PatchDef *defs, size_t count, PatchPrepare prepare,
-                  Accel *accel) {
+void pieces_build(Arena *arena, const PatchDef *defs, size_t count, size_t total,
+                  PatchPrepare prepare, Accel *accel) {
     accel->defs = defs;
     accel->patch_count = count;
     make_patches(arena, accel);
     CutList all = {0};
-    cut_all(accel, piece_limit(prepare, count), &all);
+    cut_all(accel, piece_limit(prepare, total), &all);
     tree_build(arena, all.boxes.items, (uint32_t)all.boxes.count, BLOCK_LANES, &accel->tree);
 
     bool high = false;

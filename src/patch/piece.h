@@ -114,7 +114,10 @@ typedef struct {
     float most[3][5];
 } PieceFourth;
 
+// One class of size of the patches (classes.h): nearly always all of them.
 typedef struct Accel {
+    struct Accel *next; // NULL: this is the last
+    bool is_class;      // one of several
     const PatchDef *defs;
     AccelPatch *patches;
     char *lines;
@@ -133,9 +136,10 @@ static inline uint32_t block_piece(const Block *block, uint32_t lane) {
     return block->first + LINES_OF_PIECE * lane;
 }
 
-// Cuts the patches (in parallel) and builds the tree. defs and their points must stay.
-void pieces_build(Arena *arena, const PatchDef *defs, size_t count, PatchPrepare prepare,
-                  Accel *accel);
+// Cuts the patches (in parallel) and builds the tree. defs and their points must stay. total: the
+// patches of all classes, which share what there may be of pieces.
+void pieces_build(Arena *arena, const PatchDef *defs, size_t count, size_t total,
+                  PatchPrepare prepare, Accel *accel);
 
 // S, dS/du and dS/dv at (u,v) in [0,1]^2, about the patch's center.
 void piece_eval(const AccelPatch *patch, double u, double v, Vec3 out[3]);

@@ -161,9 +161,10 @@ void aim_lattice(const StressScene *s, Rng *rng, double unused, StressRay *out) 
         c[k] = (double)(pick(rng, 4 * fine + 1) - 2 * fine) / fine;
     if (c[3] == 0.0 && c[4] == 0.0 && c[5] == 0.0)
         c[3 + pick(rng, 3)] = 1.0;
-    out->ray = (Ray){vec3(c[0], c[1], c[2]), vec3(c[3], c[4], c[5])};
-    if (pick(rng, 2))
-        out->ray.org = vec_madd(out->ray.org, -4.0, out->ray.dir);
+    Vec3 target = vec3(0.5 * c[0], 0.5 * c[1], 0.5 * c[2]);
+    out->ray = (Ray){target, vec3(c[3], c[4], c[5])};
+    if (pick(rng, 4))
+        out->ray.org = vec_madd(target, -4.0, out->ray.dir);
     if (pick(rng, 4) == 0)
         out->t_min = -INFINITY;
 }

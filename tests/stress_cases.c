@@ -276,18 +276,20 @@ static void aim_cusp(const StressScene *s, Rng *rng, double unused, StressRay *o
 // ---- The list
 
 #define CASE(name, what, share, rays, make, aim, parameter)                                        \
-    { name, what, share, rays, scene_##make, aim_##aim, parameter, 1e-9, false, 0, false }
-#define PREPARED(name, what, share, rays, make, aim, tolerance)                                    \
-    { name, what, share, rays, scene_##make, aim_##aim, 0.0, tolerance, false, 0, true }
-#define EDGES(name, what, rays, make, parameter)                                                   \
-    { name, what, 1.0, rays, scene_##make, aim_edges, parameter, 1e-9, true, 0, false }
-#define LOOSE(name, tolerance)                                                                     \
+    { name, what, share, rays, scene_##make, aim_##aim, parameter, 1e-9, .endless = false }
+#define ENDLESS(name, what, share, rays, make, aim, parameter)                                     \
+    { name, what, share, rays, scene_##make, aim_##aim, parameter, 1e-9, .endless = true }
+#define PREPARED(name, what, share, make, aim, tolerance)                                          \
     {                                                                                              \
-        name, "another tolerance", 1.0, 200000, scene_teapot, aim_hull, 1.0, tolerance, false, 0,  \
-            false                                                                                  \
+        name, what, share, 100, scene_##make, aim_##aim, 0.0, tolerance, .prepared = true,         \
+                                                                         .endless = true           \
     }
-#define HUGE(name, what, teapots, least)                                                           \
-    { name, what, 0.2, 1000000, scene_many, aim_hull, teapots, 1e-9, false, least, false }
+#define EDGES(name, what, rays, make, parameter)                                                   \
+    { name, what, 1.0, rays, scene_##make, aim_edges, parameter, 1e-9, .watertight = true }
+#define LOOSE(name, tolerance)                                                                     \
+    { name, "another tolerance", 1.0, 200000, scene_teapot, aim_hull, 1.0, tolerance, .least = 0 }
+#define HUGE(name, what, teapots, smallest)                                                        \
+    { name, what, 0.2, 1000000, scene_many, aim_hull, teapots, 1e-9, .least = smallest }
 const StressCase stress_cases[] = {
     // Shared edges, corners
     EDGES("edge_watertight", "teapot, at shared edges and corners, from outside and inside", 200000,
@@ -377,11 +379,11 @@ const StressCase stress_cases[] = {
     CASE("no_numbers", "NaN, infinities, no direction, empty range", 0.5, 2000, random, no_numbers,
          0.3),
     // All of that exactly, and as uneven as numbers can be
-    CASE("lattice", "points of -1, 0, 1; rays from such to such", 1, 100, lattice, lattice, 0),
-    CASE("lattice_secants", "the same, from corners and points of the net to others", 0.5, 100,
-         lattice, secant, 0),
-    CASE("repeated_points", "any point may be a copy of another", 0.5, 200, repeated, parameters,
-         0.4),
+    ENDLESS("lattice", "points of -1, 0, 1; rays from such to such", 1, 100, lattice, lattice, 0),
+    ENDLESS("lattice_secants", "the same, from corners and points of the net to others", 0.5, 100,
+            lattice, secant, 0),
+    ENDLESS("repeated_points", "any point may be a copy of another", 0.5, 200, repeated, parameters,
+            0.4),
     CASE("uneven_points", "each of a size of its own, 1e-6 to 1e6", 0.5, 200, uneven, surface, 6),
     CASE("coincident", "four times the same patch, reversed and swapped", 0.5, 200, coincident,
          parameters, 0.3),
@@ -392,28 +394,27 @@ const StressCase stress_cases[] = {
     CASE("uneven_dirs", "components up to 300 decades apart", 0.5, 500, random, uneven, 0.3),
     CASE("secants", "from points of a wild patch to others, corners among them", 0.5, 500, random,
          secant, 0.5),
-    CASE("rulings", "cylinders, cones: along rulings or 1e-17..1 beside", 0.5, 100, ruled, rulings,
-         0),
-    CASE("rulings_tangent", "tangents of such, to the last bit or nearly", 0.5, 100, ruled, tangent,
-         0),
-    CASE("edge_on", "in the plane of a flat patch that no axis lies in, or nearly", 0.5, 100,
-         tilted, tangent, 0),
+    ENDLESS("rulings", "cylinders, cones: along rulings or 1e-17..1 beside", 0.5, 100, ruled,
+            rulings, 0),
+    ENDLESS("rulings_tangent", "tangents of such, to the last bit or nearly", 0.5, 100, ruled,
+            tangent, 0),
+    ENDLESS("edge_on", "in the plane of a flat patch that no axis lies in, or nearly", 0.5, 100,
+            tilted, tangent, 0),
     CASE("tangent_hard", "tangents at ends, halves, ..., 1e-17..0.1 beside", 1, 500, random,
          tangent, 0.5),
     CASE("tangent_mesh", "the same on 3x3 patches", 0.5, 500, mesh, tangent, 0.1),
     CASE("tangent_degrees", "bi-degrees 1 to 16", 0.2, 200, degrees, tangent, 0.3),
     CASE("tangent_round", "a quarter of a torus", 0.2, 200, round, tangent, 0),
     CASE("folds", "where folds cross, or 1e-17..0.1 beside", 0.5, 200, folds, folds, 0),
-    CASE("pinch", "where all derivatives vanish, or 1e-17..0.1 beside", 0.5, 200, pinch, middle, 0),
-    CASE("pinch_tangent", "tangents there", 0.5, 200, pinch, tangent, 0),
+    ENDLESS("pinch", "where all derivatives vanish, or 1e-17..0.1 beside", 0.5, 200, pinch, middle,
+            0),
+    ENDLESS("pinch_tangent", "tangents there", 0.5, 200, pinch, tangent, 0),
     CASE("collapsed_tangent", "tangents of sides and corners that are points", 0.5, 200, collapsed,
          tangent, 0),
     CASE("curve", "all points on one curve, met exactly", 0.2, 100, curve, curve, 0),
     CASE("sphere", "a sphere of eight patches, at poles and sides", 0.2, 200, sphere, parameters,
          0),
     CASE("sphere_tangent", "tangents of it", 0.2, 200, sphere, tangent, 0),
-    CASE("rational_1e15", "weights 1e-15 to 1e15", 0.2, 200, rational, surface, 15),
-    CASE("mixed_huge", "eleven patches of sizes 1e-30 to 1e30", 0.2, 500, mixed_huge, surface, 0),
     CASE("scale_1e38", "where single floats end", 0.5, 500, scaled, surface, 1e38),
     CASE("scale_1e-38", "and begin", 0.5, 500, scaled, surface, 1e-38),
     CASE("scale_1e-45", "and are 0", 0.5, 500, scaled, surface, 1e-45),
@@ -425,17 +426,17 @@ const StressCase stress_cases[] = {
     CASE("leaving_hard", "from sides and halves, along the surface or 1e-17..1 off", 1, 500, random,
          leaving_hard, 0.5),
     CASE("leaving_mesh", "the same from 3x3 patches", 0.5, 500, mesh, leaving_hard, 0.1),
-    CASE("leaving_ruled", "from cylinders and cones", 0.5, 200, ruled, leaving_hard, 0),
-    CASE("leaving_pinch", "from where derivatives vanish", 0.5, 200, pinch, leaving_hard, 0),
-    CASE("leaving_lattice", "from points of -1, 0, 1", 0.5, 100, lattice, leaving_hard, 0),
+    ENDLESS("leaving_ruled", "from cylinders and cones", 0.5, 200, ruled, leaving_hard, 0),
+    ENDLESS("leaving_pinch", "from where derivatives vanish", 0.5, 200, pinch, leaving_hard, 0),
+    ENDLESS("leaving_lattice", "from points of -1, 0, 1", 0.5, 100, lattice, leaving_hard, 0),
     CASE("leaving_stack", "from one of twelve sheets", 0.5, 200, stack, leaving_hard, 0.2),
     CASE("leaving_sphere", "from a sphere", 0.2, 200, sphere, leaving_hard, 0),
     CASE("leaving_degrees", "bi-degrees 1 to 16", 0.2, 200, degrees, leaving_hard, 0.3),
-    PREPARED("any", "any of all these, of any size, anywhere, prepared in any way", 2, 100, any,
-             any, 1e-9),
-    PREPARED("any_1e-3", "another tolerance", 0.5, 100, any, any, 1e-3),
-    PREPARED("any_1e-6", "another tolerance", 0.5, 100, any, any, 1e-6),
-    PREPARED("any_1e-12", "another tolerance", 0.5, 100, any, any, 1e-12),
+    PREPARED("any", "any of all these, of any size, anywhere, prepared in any way", 2, any, any,
+             1e-9),
+    PREPARED("any_1e-3", "another tolerance", 0.5, any, any, 1e-3),
+    PREPARED("any_1e-6", "another tolerance", 0.5, any, any, 1e-6),
+    PREPARED("any_1e-12", "another tolerance", 0.5, any, any, 1e-12),
     // Other tolerances
     LOOSE("tolerance_1e-3", 1e-3),
     LOOSE("tolerance_1e-6", 1e-6),

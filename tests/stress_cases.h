@@ -57,6 +57,9 @@ typedef struct StressCase {
     bool watertight;  // counts separately: only rays at closed edges, judged by what stops them
     int least;        // rays: fewer are not worth making its scene, and it is left out
     bool prepared;    // scene by scene in another way (PatchPrepare)
+    // Some of its rays lie in a surface: infinitely many answers, of which `all` finds some in
+    // bounded time. Times are told, and not judged by the median of those that do not.
+    bool endless;
 } StressCase;
 
 extern const StressCase stress_cases[];
@@ -126,7 +129,6 @@ void scene_pinch(StressScene *s, Rng *rng, double unused);
 void scene_sphere(StressScene *s, Rng *rng, double unused);
 void scene_far_small(StressScene *s, Rng *rng, double offset);
 void scene_far_mesh(StressScene *s, Rng *rng, double offset);
-void scene_mixed_huge(StressScene *s, Rng *rng, double unused);
 void scene_any(StressScene *s, Rng *rng, double unused);
 
 // Adds a patch; returns its points, to be written.

@@ -159,6 +159,20 @@ static bool surely_in_range(const Trial *trial, int k) {
            within(r, c->t, slack_of(truth, k, bound_at(trial, NULL, c->patch)));
 }
 
+// Does the ray run beside the surface all the way from an end of the range to the crossing k? Then
+// it is a matter of the tolerance on which side of that end the two meet.
+static bool beside_range_end(const Trial *trial, int k) {
+    StressTruth *truth = trial->truth;
+    const RayOracleRoot *c = &truth->oracle.root[k];
+    const StressRay *r = truth->ray;
+    double near = 4.0 * bound_at(trial, NULL, c->patch);
+    return sine_of(truth, k) < 1e-3 &&
+           ((isfinite(r->t_min) &&
+             ray_oracle_near(truth->scene->oracle, &r->ray, r->t_min, c->t, near)) ||
+            (isfinite(r->t_max) &&
+             ray_oracle_near(truth->scene->oracle, &r->ray, c->t, r->t_max, near)));
+}
+
 // Is a hit too far behind the crossing to be it?
 static bool behind(const Trial *trial, const PatchHit *hit, int k) {
     StressTruth *truth = trial->truth;
@@ -194,6 +208,8 @@ static StressVerdict judge_nearest(const Trial *trial, RayOracleRange range) {
             const RayOracleRoot *c = &o->root[k];
             if (c->kind == ROOT_CERTAIN) {
                 if (!surely_in_range(trial, k))
+                    continue;
+                if ((!a->found || !a->any) && beside_range_end(trial, k))
                     continue;
                 if (!a->found || !a->any)
                     return a->found ? STRESS_DIFFER : STRESS_MISSED;
@@ -260,7 +276,7 @@ static StressVerdict judge_lost(const Trial *trial) {
             for (int far = 0; far < 2; far++)
                 for (int i = 0; !found && i < a->count; i++)
                     found = accounts(trial, &a->all[i], k, far);
-            if (!found)
+            if (!found && !beside_range_end(trial, k))
                 return STRESS_LOST;
         }
         if (!open)

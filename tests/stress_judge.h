@@ -19,7 +19,8 @@
 // A hit at depth t accounts for a proved crossing at depth c when |t - c| is no more than what a
 // hit off by its bound b across the ray can be off along it, 4 b / sine of the angle between ray
 // and surface; or, where the surface is nearly tangent or bent at the size of b, when it stays
-// within 4 b of the ray all the way between the two (ray_oracle_near). So both answers count as
+// within 4 b of the ray all the way between the two (ray_oracle_near); and the same between a
+// crossing and an end of the range. So both answers count as
 // right exactly where the decision lies inside the hit's own bound. A crossing that the oracle
 // can't tell from a near miss even with 113 bits (on the patch's edge, tangent, singular) may be
 // reported or not, except by rays aimed at closed edges: there something must stop the ray.

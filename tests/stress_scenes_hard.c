@@ -204,18 +204,6 @@ void scene_far_mesh(StressScene *s, Rng *rng, double offset) {
     stress_move(s, 1.0, vec3(offset, -0.7 * offset, offset / 3.0));
 }
 
-// Eleven patches of sizes 1e-30 to 1e30.
-void scene_mixed_huge(StressScene *s, Rng *rng, double unused) {
-    (void)unused;
-    for (int n = 0; n < 11; n++) {
-        int first = s->count;
-        scene_random(s, rng, 0.3);
-        Vec3 *p = (Vec3 *)s->defs[first].points;
-        for (int k = 0; k < 16; k++)
-            p[k] = vec_scale(p[k], pow(10.0, 6 * n - 30));
-    }
-}
-
 // Any of all these, of any size, anywhere.
 void scene_any(StressScene *s, Rng *rng, double unused) {
     (void)unused;

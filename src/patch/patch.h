@@ -111,8 +111,9 @@ bool patchset_intersect_leaving(const PatchSet *set, const Ray *ray, double t_ma
 // than that is never lost. def: the patch that was hit. Less than 1 us; where the surface has to be
 // followed (along rulings, beside folds of very long ribbons), 20 us and up to some 1,000.
 // Where surfaces meet, a neighbour may be found from there on, another sheet, or the same one with
-// a larger bound. Of the rest of the ray, that begins there, ask for the clearance of such a hit:
-// one that lies before it is still what is left, and the ray is clear from there on.
+// a larger bound. Of the rest of the ray, that begins there, ask for the clearance of such a hit,
+// with the larger of both bounds: one that lies before it is still what is left, and the ray is
+// clear from there on.
 double patch_clearance(const PatchDef *def, const PatchHit *hit, const Ray *ray);
 // Is there any?
 bool patchset_occluded(const PatchSet *set, const Ray *ray, double t_min, double t_max,

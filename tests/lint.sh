@@ -35,16 +35,16 @@ kernel base patch kernel
 model base model patch
 options base image options patch
 converter base converter function image model noise options probe
-shape base function model patch shape
+shape base function model shape
 noise base noise
-probe base model patch probe render texture
+probe base model probe render texture
 function base model noise function
 texture base function image model noise texture
-render base function image kernel model noise options patch render shape texture
-report base image model options render report
-bench base converter function image model noise options patch kernel render report bench
-cmd base bench converter function image model options patch render report cmd
-tests base bench converter function image kernel model noise options patch render report shape texture tests
+render base image model noise options patch render shape texture
+report base image options render report
+bench base converter image model options patch render report bench
+cmd base bench converter options render report cmd
+tests base bench converter function image model noise options patch render report shape texture tests
 ROOMS
 xargs grep -HnE '^ *# *include +"' <"$work/all" | awk -v arrows="$work/arrows" '
     BEGIN {

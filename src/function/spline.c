@@ -35,8 +35,7 @@ void spline_prepare(Spline *s, double *work) {
     }
 }
 
-// One component c at t, in the segment from key a to a + 1.
-
+// This and the next three: one component c at t, in the segment from key a to a + 1.
 static double linear(const SplineKey *a, int c, double t) {
     const SplineKey *b = a + 1;
     return (t - a->at) * (b->value[c] - a->value[c]) / (b->at - a->at) + a->value[c];

@@ -58,7 +58,7 @@ void check_index(const Check *c, const FieldPath *path, uint32_t index, uint32_t
                  const char *what);
 void check_transform(const Check *c, const FieldPath *up, const char *name, const Transform *t);
 
-// solid_check.c: what the larger primitives are made of, and the pools they refer to.
+// check_solid.c: what the larger primitives are made of, and the pools they refer to.
 void check_solid(const Check *c, const FieldPath *path, const Object *object);
 void check_solid_pools(const Check *c);
 // For a pattern of what is inside projection number `index`, a good tree: dies if the functions of

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
 # How fast scenes are read, beside POV-Ray: user time, medians of interleaved runs, as a table. A
 # loop of arithmetic statements, a file of literal patches, and the scenes of povray-examples that
 # take POV-Ray more than 0.1 s at one pixel. RUNS: how many runs each; EXAMPLES: where the scenes are.

@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: MIT
 # Renders POV-Ray's own teapot with QI and with POV-Ray and compares them; says where the page is.
 set -eu
 cd "$(dirname "$0")/.."

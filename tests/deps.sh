@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: MIT
 # Installs those of the named Debian packages that are missing. Root, or sudo, is only needed then.
 set -eu
 missing=

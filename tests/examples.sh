@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
 # Every scene of povray-examples, and every include of povray-includes by itself: pov2qi --check must
 # accept exactly what POV-Ray accepts, and #debug must print the same lines. Differences that have a
 # reason stand in tests/examples.txt: NAME<tab>REASON; they are named, and fail if they are gone.

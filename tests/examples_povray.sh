@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
 # What POV-Ray says of each scene of povray-examples, kept in build/examples/povray: NAME.status (the
 # exit status, then how it was found), NAME.debug (what #debug printed), NAME.err (its messages). Runs
 # only those that are missing; minutes in all. The scenes lie in build/examples/tree, a copy in which

@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: MIT
 # Renders README's pictures again: every scene of scenes/ with QI, into its own folder.
 set -eu
 cd "$(dirname "$0")/.."

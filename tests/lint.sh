@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
 # What can be judged without running anything: form, the rooms' arrows, and two analysers with fixed
 # lists of checks. Findings go to stdout; the last line counts them; exit status 1 if there are any.
 # With file names it looks at these only (while working on them).

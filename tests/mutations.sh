@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
 # Small programs that are a little wrong (tests/programs/mutate.c): pov2qi --check must accept what
 # POV-Ray accepts and refuse what it refuses. Prints each difference as a line for tests/grammar.txt
 # (what POV-Ray says, then the program), and then what was said. What POV-Ray dies of, or does not

@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: MIT
 # Runs the named test programs from build/test/, shows cmocka's closing lines, and ends with one line
 # "N passed, N failed". Exit status 1 if a test failed or a program died before it could say so.
 export ASAN_OPTIONS="${ASAN_OPTIONS:-detect_leaks=0}" UBSAN_OPTIONS="${UBSAN_OPTIONS:-print_stacktrace=1}"

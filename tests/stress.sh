@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: MIT
 # make stress: runs build/stress with the arguments given, keeps all it says in build/stress.txt, and
 # when it was asked for all cases and methods writes its last table into README.md.
 set -u

@@ -15,10 +15,6 @@ static const double NEWTON_NORMAL_ERROR = 1e-6;
 // Below it the normal is taken from where the last step begins: rounding is not far.
 static const double NEWTON_NORMAL_TURN = 1e-12;
 
-// How far from its border a patch may be hit, in its radius: neighbours whose points were computed
-// apart (by numerical derivatives, say) share an edge but for some thousand roundings.
-#define NEWTON_BORDER 0x1p-38
-
 typedef enum { NEWTON_LOST, NEWTON_TAKEN, NEWTON_STOP } Newton;
 
 static inline double larger(double a, double b) { return a > b ? a : b; }
@@ -78,7 +74,7 @@ static inline Newton newton_sharpen(Walk *walk, const Piece *piece, BezierRect r
     // What rounding leaves is as good as can be had.
     const double least = 2.0 * ray->error, tolerance = larger(ray->patch->tolerance, least);
     // On the patch's own border: else a patch would be wider than it is by its tolerance.
-    const double beside = larger(smaller(tolerance, NEWTON_BORDER * ray->patch->radius), least);
+    const double beside = larger(smaller(tolerance, ray->patch->border), least);
     for (int step = 0; step < NEWTON_STEPS; step++) {
         query->stats.newton++;
         Vec3 s[3];

@@ -186,7 +186,7 @@ static inline unsigned rays_sharpen(RayPacket *p, int i, unsigned bits, uint32_t
              v1 = wd_all(smaller(rect.v1 + hair_v, 1.0));
     const double muu = (double)piece->muu, muv = (double)piece->muv, mvv = (double)piece->mvv;
     const WD least = 2.0 * error, tolerance = wd_max(wd_all(patch->tolerance), least);
-    const WD beside = wd_max(wd_min(tolerance, wd_all(NEWTON_BORDER * patch->radius)), least);
+    const WD beside = wd_max(wd_min(tolerance, wd_all(patch->border)), least);
     const WD zero = wd_all(0.0), one = wd_all(1.0);
     unsigned lost = 0;
     for (int step = 0; step < NEWTON_STEPS && bits; step++) {

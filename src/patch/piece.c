@@ -5,6 +5,7 @@
 #include "base/array.h"
 #include "base/diag.h"
 #include "patch/bernstein.h"
+#include "patch/border.h"
 #include "patch/qi_local.h"
 #include "patch/quasi.h"
 
@@ -411,6 +412,7 @@ static void make_patches(Arena *arena, Accel *accel) {
 #pragma omp parallel for schedule(static)
     for (size_t i = 0; i < accel->patch_count; i++)
         make_patch(&accel->defs[i], local + first[i], &accel->patches[i]);
+    borders_find(accel->patches, accel->patch_count);
 }
 
 // cuts and boxes: of the whole set, not in the order of the tree.

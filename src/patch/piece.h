@@ -27,10 +27,11 @@ typedef struct {
     double rounding;     // of a coordinate of S; of its derivatives: times twice the degree
     double tolerance;    // scene units
     double radius;       // of a ball that holds all points
-    const double *local; // points less center; cubic: [column][row][3], else [3][row][column]
+    double border;       // how far outside of it the patch may be hit, see border.h
     uint32_t id;         // the definition's
     bool cubic;          // bi-degree (3,3); then local is own
     double own[49];      // one more, since a point is read as four numbers
+    const double *local; // points less center; cubic: [column][row][3], else [3][row][column]
     const PatchDef *def;
 } AccelPatch;
 _Static_assert(sizeof(AccelPatch) == 512, "eight lines of cache");

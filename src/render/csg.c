@@ -231,6 +231,10 @@ static bool is_split(const Object *object) {
     return object->type == OBJECT_UNION && object->clips.count == 0 && !object->whole;
 }
 
+static bool judges(const CsgNode *tree) {
+    return tree->object->type != OBJECT_UNION || tree->first_clip != NO_INDEX;
+}
+
 // A leaf is seen where it is and each tree around it may be, through the bounds of all. Parents
 // stand before their children.
 static void hand_down(Csg *csg) {
@@ -238,9 +242,12 @@ static void hand_down(Csg *csg) {
         CsgNode *node = &csg->nodes[n];
         node->gate = node->first_bound != NO_INDEX ? n : NO_INDEX;
         node->outermost = node->parent == NO_INDEX;
+        node->judge = node->judged = NO_INDEX;
         if (node->parent == NO_INDEX)
             continue;
         const CsgNode *parent = &csg->nodes[node->parent];
+        node->judge = judges(parent) ? node->parent : parent->judge;
+        node->judged = judges(parent) ? n : parent->judged;
         node->outermost = parent->outermost && is_split(parent->object);
         node->reach = box_common(node->reach, parent->reach);
         if (node->gate == NO_INDEX)
@@ -395,18 +402,19 @@ static bool outside_others(const Csg *csg, const CsgNode *tree, uint32_t own, Ve
 }
 
 bool csg_keeps(const Csg *csg, uint32_t index, Vec3 p, uint32_t kind) {
-    if (!inside_clips(csg, &csg->nodes[index], p))
+    const CsgNode *node = &csg->nodes[index];
+    if (!inside_clips(csg, node, p))
         return false;
-    uint32_t own = index;
-    for (uint32_t t = csg->nodes[index].parent; t != NO_INDEX; own = t, t = csg->nodes[t].parent) {
-        const CsgNode *tree = &csg->nodes[t];
+    while (node->judge != NO_INDEX) {
+        const CsgNode *tree = &csg->nodes[node->judge];
         ObjectType type = tree->object->type;
-        if (type == OBJECT_INTERSECTION && !inside_others(csg, tree, own, p))
+        if (type == OBJECT_INTERSECTION && !inside_others(csg, tree, node->judged, p))
             return false;
-        if (type == OBJECT_MERGE && !outside_others(csg, tree, own, p, kind))
+        if (type == OBJECT_MERGE && !outside_others(csg, tree, node->judged, p, kind))
             return false;
         if (!inside_clips(csg, tree, p))
             return false;
+        node = tree;
     }
     return true;
 }
@@ -414,13 +422,13 @@ bool csg_keeps(const Csg *csg, uint32_t index, Vec3 p, uint32_t kind) {
 bool csg_fills(const Csg *csg, uint32_t index, Vec3 p) {
     if (!csg_inside(csg, index, p))
         return false;
-    uint32_t own = index;
-    for (uint32_t t = csg->nodes[index].parent; t != NO_INDEX; own = t, t = csg->nodes[t].parent) {
-        const CsgNode *tree = &csg->nodes[t];
-        if (tree->object->type == OBJECT_INTERSECTION && !inside_others(csg, tree, own, p))
+    for (const CsgNode *node = &csg->nodes[index]; node->judge != NO_INDEX;) {
+        const CsgNode *tree = &csg->nodes[node->judge];
+        if (tree->object->type == OBJECT_INTERSECTION && !inside_others(csg, tree, node->judged, p))
             return false;
         if (!inside_clips(csg, tree, p))
             return false;
+        node = tree;
     }
     return true;
 }
@@ -429,14 +437,15 @@ bool csg_is_watched(const Csg *csg, uint32_t index) {
     const CsgNode *own = &csg->nodes[index];
     if (own->first_clip != NO_INDEX)
         return true;
-    for (uint32_t t = own->parent; t != NO_INDEX; own = &csg->nodes[t], t = own->parent) {
-        const CsgNode *tree = &csg->nodes[t];
-        bool judges =
+    while (own->judge != NO_INDEX) {
+        const CsgNode *tree = &csg->nodes[own->judge], *child = &csg->nodes[own->judged];
+        bool hides =
             tree->object->type == OBJECT_INTERSECTION
                 ? tree->child_count > 1
-                : tree->object->type == OBJECT_MERGE && tree->solid_count > (own->solid ? 1 : 0);
-        if (judges || tree->first_clip != NO_INDEX)
+                : tree->object->type == OBJECT_MERGE && tree->solid_count > (child->solid ? 1 : 0);
+        if (hides || tree->first_clip != NO_INDEX)
             return true;
+        own = tree;
     }
     return false;
 }

@@ -30,11 +30,14 @@ typedef struct {
     uint32_t next;      // sibling, also in a list of clips
     uint32_t first, first_clip, first_bound;
     uint32_t child_count, solid_count;
-    bool solid;          // some point may be inside
-    Box inside;          // holds all that are
-    Box outside;         // holds all that are not
-    Box reach;           // holds the surface as far as the trees around let it be seen
-    uint32_t gate;       // the innermost node with bounds, of it and those around; NO_INDEX: none
+    bool solid;    // some point may be inside
+    Box inside;    // holds all that are
+    Box outside;   // holds all that are not
+    Box reach;     // holds the surface as far as the trees around let it be seen
+    uint32_t gate; // the innermost node with bounds, of it and those around; NO_INDEX: none
+    // The innermost node around that has a say in which points count, no plain union, and its child
+    // that this one is or lies below; NO_INDEX: none.
+    uint32_t judge, judged;
     bool outermost;      // it is what POV-Ray has as one object
     const CsgWide *wide; // of a tree with many children
 } CsgNode;

@@ -243,12 +243,18 @@ static Vec3 random_in(Rng *rng, const Box *box) {
                 rng_range(rng, box->low.z, box->high.z));
 }
 
-// A ray from a sphere around the scene, `distance` sizes away, towards a point of its box.
-static Ray random_ray(Rng *rng, double distance) {
+// A point of a sphere around the scene, `distance` sizes away from its middle.
+static Vec3 random_start(Rng *rng, double distance) {
     Box box = patchset_bounds(scene.set);
     Vec3 middle = vec_scale(vec_add(box.low, box.high), 0.5);
     double size = vec_length(vec_sub(box.high, box.low));
-    Ray ray = {vec_madd(middle, distance * size, random_direction(rng)), {0, 0, 0}};
+    return vec_madd(middle, distance * size, random_direction(rng));
+}
+
+// A ray from such a point towards one of the scene's box.
+static Ray random_ray(Rng *rng, double distance) {
+    Box box = patchset_bounds(scene.set);
+    Ray ray = {.org = random_start(rng, distance)};
     ray.dir = vec_sub(random_in(rng, &box), ray.org);
     return ray;
 }
@@ -292,10 +298,7 @@ static void teapot_as_the_oracle(void **state) {
 
 // Aims at S(u,v) of one patch from outside the scene.
 static Ray ray_at(Rng *rng, int patch, double u, double v) {
-    Box box = patchset_bounds(scene.set);
-    Vec3 middle = vec_scale(vec_add(box.low, box.high), 0.5);
-    double size = vec_length(vec_sub(box.high, box.low));
-    Ray ray = {vec_madd(middle, 1.2 * size, random_direction(rng)), {0, 0, 0}};
+    Ray ray = {.org = random_start(rng, 1.2)};
     ray.dir = vec_sub(bezier_eval(&scene.patch[patch], u, v), ray.org);
     return ray;
 }

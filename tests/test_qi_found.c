@@ -132,11 +132,36 @@ static void clear_of_what_hardly_bends(void **state) {
     }
 }
 
+// x and y folded three times each, z their sum: where x = -y the sheet holds lines at 45 degrees.
+// All hits of a ray along one were asked for in each piece to the end: 61,066 nets, 0.15 s.
+static void all_along_a_line(void **state) {
+    (void)state;
+    static const double fold[4] = {-1.0, 5.0, -5.0, 1.0};
+    const double size = 6.6170995134498946e-05;
+    Vec3 points[16];
+    for (int i = 0; i < 4; i++)
+        for (int j = 0; j < 4; j++)
+            points[4 * i + j] = vec_scale(vec3(fold[i], fold[j], -0.5 * (i + j)), size);
+    Ray ray = {vec3(size, -size, -1.5 * size), vec3(-4.0 * size, 4.0 * size, 0.0)};
+    PatchDef def = def_of(points);
+    PatchSet *set = set_of(&def);
+    PatchStats stats = {0};
+    PatchHit nearest;
+    int count = 0;
+    assert_true(patchset_intersect(set, &ray, 0.0, INFINITY, UINT32_MAX, NULL, &nearest));
+    assert_true(ray_oracle_residual(&def, &ray, nearest.t, nearest.u, nearest.v) <= nearest.bound);
+    patchset_all(set, &ray, 0.0, INFINITY, UINT32_MAX, &stats, count_hit, &count);
+    if (count == 0 || stats.steps > 10000)
+        fail_msg("%d hits, %d nets", count, (int)stats.steps);
+    patchset_destroy(set);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(patches_smaller_than_floats),
         cmocka_unit_test(two_sides_one_point),
         cmocka_unit_test(clear_of_what_hardly_bends),
+        cmocka_unit_test(all_along_a_line),
     };
     return cmocka_run_group_tests_name("qi_found", tests, NULL, NULL);
 }

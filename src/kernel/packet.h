@@ -36,6 +36,7 @@ static inline void ray_leave(const RayPacket *p, int i, Walk *walk, Query *query
     walk->dir = vec3(p->dir[0][i], p->dir[1][i], p->dir[2][i]);
     walk->t_per_s = p->t_per_s[i];
     walk->patch = UINT32_MAX;
+    walk->endless = 0;
     if (p->kind == QUERY_NEAREST && query->found) {
         walk->best_patch = p->best_patch[i];
         walk->best_piece = p->best_piece[i];

@@ -28,6 +28,7 @@ enum {
     SEARCH_STEPS = 12, // of an X that shrinks; a single root takes one or two
     SEARCH_CUTS = 24,  // looks where it is cut in half
     SEARCH_DEPTH = 8,  // cuts, one in the other
+    SEARCH_NETS = 256, // of qi, for one piece: more have only rays that lie in the surface
 };
 
 // The surface about one point, as the ray sees it.
@@ -129,6 +130,8 @@ static void take_qi(void *context, const QiHit *hit) {
     f->go_on = walk_take(f->walk, &root);
 }
 
+// A ray in the surface meets many pieces, each with more hits than anyone wants: once some have
+// been found the one with the smallest t has to do, of each.
 static bool search_qi(Walk *walk, const Piece *piece, BezierRect rect) {
     const PatchRay *ray = &walk->ray;
     Query *query = walk->query;
@@ -147,10 +150,12 @@ static bool search_qi(Walk *walk, const Piece *piece, BezierRect rect) {
     QiStats stats = {0};
     QiHit hit;
     Fallback f = {walk, true};
-    if (query->kind == QUERY_ALL)
+    if (query->kind == QUERY_ALL && walk->endless <= 4 * SEARCH_NETS)
         qi_reduce_all(&patch, &ask, &stats, take_qi, &f);
     else if (qi_reduce_nearest(&patch, &ask, &stats, &hit))
         take_qi(&f, &hit);
+    if (stats.steps > SEARCH_NETS)
+        walk->endless += stats.steps;
     query->stats.steps += stats.steps;
     query->stats.newton += stats.newton;
     return f.go_on;

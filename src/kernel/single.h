@@ -296,7 +296,7 @@ static void walk_query(Walk *walk) {
     RayEntry entry = ray_begin(tree, &query->ray, query->t_min, query->t_max, &ray);
     if (entry == RAY_MISSES)
         return;
-    walk->seen_count = 0;
+    walk->seen_count = walk->endless = 0;
     if (entry == RAY_FAR) {
         visit_all(walk);
         return;

@@ -29,6 +29,7 @@ typedef struct {
     double t_least; // of hits in the leaf being visited
     PatchRay ray;
     uint32_t best_patch, best_piece; // where query->best comes from
+    uint64_t endless; // nets of searches that found the ray in the surface (search.h)
     uint64_t seen_count;
     WalkSeen seen[WALK_SEEN]; // the last ones, a ring
 } Walk;

@@ -390,7 +390,7 @@ const StressCase stress_cases[] = {
     CASE("stack", "twelve sheets, 1e-12 to 1e-3 apart", 0.5, 200, stack, surface, 0.2),
     CASE("range_bounds", "t_min and t_max on a crossing to the last bit", 1, 500, random, bounds,
          0.3),
-    CASE("range_folds", "the same where the surface is a fold", 0.5, 500, cusp, bounds, 0),
+    CASE("range_folds", "the same where the surface is folded", 0.5, 200, folds, bounds, 0),
     CASE("uneven_dirs", "components up to 300 decades apart", 0.5, 500, random, uneven, 0.3),
     CASE("secants", "from points of a wild patch to others, corners among them", 0.5, 500, random,
          secant, 0.5),

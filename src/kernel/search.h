@@ -22,7 +22,6 @@
 #define KERNEL_SEARCH_H
 
 #include "kernel/newton.h"
-#include "patch/qi.h"
 
 enum {
     SEARCH_STEPS = 12, // of an X that shrinks; a single root takes one or two
@@ -143,16 +142,19 @@ static bool search_qi(Walk *walk, const Piece *piece, BezierRect rect) {
     double t_max = walk->t_limit + 16.0 * ray->patch->tolerance * ray->t_per_s;
     QiQuery ask = {query->ray, query->t_min, t_max, ray->patch->tolerance, rect, NULL};
     QiFourth fourth = {piece_rect(piece), NULL};
-    if (walk->accel->fourth) {
+    if (walk->accel->fourth && qi_local_pays(patch.du, patch.dv)) {
         fourth.most = walk->accel->fourth[piece->fourth].most;
         ask.fourth = &fourth;
     }
     QiStats stats = {0};
     QiHit hit;
     Fallback f = {walk, true};
+    if (!walk->has_qi)
+        qi_search_init(&walk->qi, &patch, NULL, &query->ray);
+    walk->has_qi = true;
     if (query->kind == QUERY_ALL && walk->endless <= 4 * SEARCH_NETS)
-        qi_reduce_all(&patch, &ask, &stats, take_qi, &f);
-    else if (qi_reduce_nearest(&patch, &ask, &stats, &hit))
+        qi_search_all(&walk->qi, &patch, NULL, &ask, &stats, take_qi, &f);
+    else if (qi_search_nearest(&walk->qi, &patch, NULL, &ask, &stats, &hit))
         take_qi(&f, &hit);
     if (stats.steps > SEARCH_NETS)
         walk->endless += stats.steps;

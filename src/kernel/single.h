@@ -111,11 +111,8 @@ static inline const Piece *piece_begin(Walk *walk, const Block *block, int lane)
     const Accel *accel = walk->accel;
     uint32_t patch = block->patch[lane];
     walk->piece = block_piece(block, (uint32_t)lane);
-    if (walk->patch != patch) {
-        walk->patch = patch;
-        patch_ray_init(&walk->ray, &accel->patches[patch], &walk->query->ray, walk->dir,
-                       walk->t_per_s);
-    }
+    if (walk->patch != patch)
+        walk_see(walk, patch);
     return accel_piece(accel, walk->piece);
 }
 
@@ -192,9 +189,8 @@ static bool visit_block(Walk *walk, const Block *block) {
         if (!(block->mask[i] & walk->query->mask))
             continue;
         walk->piece = block_piece(block, i);
-        walk->patch = block->patch[i];
-        patch_ray_init(&walk->ray, &accel->patches[walk->patch], &walk->query->ray, walk->dir,
-                       walk->t_per_s);
+        if (walk->patch != block->patch[i])
+            walk_see(walk, block->patch[i]);
         if (patch_ray_misses(&walk->ray))
             continue;
         const Piece *piece = accel_piece(accel, walk->piece);
@@ -219,6 +215,7 @@ static void visit_all(Walk *walk) {
         return;
     walk->dir = ray.unit;
     walk->t_per_s = accel->tree.scale / ray.s_per_t;
+    walk->patch = UINT32_MAX;
     Ray near;
     if (accel->is_class && classes_near(accel, &walk->query->ray, &near)) {
         if (!tree_ray_begin(&accel->tree, &near, -INFINITY, INFINITY, &ray))

@@ -4,6 +4,7 @@
 
 #include "base/array.h"
 #include "base/diag.h"
+#include "base/lanes.h"
 #include "patch/bernstein.h"
 #include "patch/border.h"
 #include "patch/qi_local.h"
@@ -74,24 +75,29 @@ static void eval_cubic(const double *p, double u, double v, Vec3 out[3]) {
 static void eval_any(const AccelPatch *patch, double u, double v, Vec3 out[3]) {
     int nu = (int)patch->def->degree_u, nv = (int)patch->def->degree_v;
     double wu[BEZIER_MAX_DEGREE + 1], du[BEZIER_MAX_DEGREE + 1];
-    double wv[BEZIER_MAX_DEGREE + 1], dv[BEZIER_MAX_DEGREE + 1], result[3][3] = {{0.0}};
+    double wv[BEZIER_MAX_DEGREE + 1], dv[BEZIER_MAX_DEGREE + 1];
     bernstein(nu, u, wu, du);
     bernstein(nv, v, wv, dv);
+    // Weights and their derivatives side by side, the coordinates in turn.
+    Lanes2 both[BEZIER_MAX_DEGREE + 1], low[3] = {{0.0}}, high[3] = {{0.0}};
+    for (int j = 0; j <= nv; j++)
+        both[j] = (Lanes2){wv[j], dv[j]};
     const double *p = patch->local;
-    for (int axis = 0; axis < 3; axis++) {
-        for (int i = 0; i <= nu; i++, p += nv + 1) {
-            double row = 0.0, slope = 0.0;
-            for (int j = 0; j <= nv; j++) {
-                row += wv[j] * p[j];
-                slope += dv[j] * p[j];
-            }
-            result[0][axis] += wu[i] * row;
-            result[1][axis] += du[i] * row;
-            result[2][axis] += wu[i] * slope;
+    const int next = (nu + 1) * (nv + 1);
+    for (int i = 0; i <= nu; i++, p += nv + 1) {
+        Lanes2 x = {0.0}, y = {0.0}, z = {0.0};
+        for (int j = 0; j <= nv; j++) {
+            x += both[j] * p[j];
+            y += both[j] * p[next + j];
+            z += both[j] * p[2 * next + j];
         }
+        low[0] += wu[i] * x, high[0] += du[i] * x;
+        low[1] += wu[i] * y, high[1] += du[i] * y;
+        low[2] += wu[i] * z, high[2] += du[i] * z;
     }
-    for (int k = 0; k < 3; k++)
-        out[k] = vec3(result[k][0], result[k][1], result[k][2]);
+    out[0] = vec3(low[0][0], low[1][0], low[2][0]);
+    out[1] = vec3(high[0][0], high[1][0], high[2][0]);
+    out[2] = vec3(low[0][1], low[1][1], low[2][1]);
 }
 
 void piece_eval(const AccelPatch *patch, double u, double v, Vec3 out[3]) {

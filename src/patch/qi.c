@@ -398,7 +398,8 @@ static int intersect(const Bezier *patch, const QiQuery *query, QiMode mode, QiS
     Bezier raised;
     bezier_copy(&raised, patch);
     raise_linear(&raised);
-    if (!qi_frame_init(&q.frame, FRAME_ACROSS, &raised, query, &q.patch))
+    if (!qi_frame_init(&q.frame, FRAME_ACROSS, &raised, &query->ray, &q.patch) ||
+        !qi_frame_ask(&q.frame, query))
         return 0;
     q.list = (QiList){mode, query->t_min, query->t_max, 0, mode == QI_ALL ? QI_MAX_HITS : 1, found};
     q.steps = 0;

@@ -56,8 +56,7 @@ QiQuery qi_query_default(const Bezier *patch, Ray ray) {
 
 static bool query_is_sound(const QiQuery *q) {
     const BezierRect *r = &q->rect;
-    return vec_is_finite(q->ray.org) && vec_is_finite(q->ray.dir) && largest(q->ray.dir) > 0.0 &&
-           q->t_min < q->t_max && q->tolerance >= 0.0 && r->u0 >= 0.0 && r->u0 <= r->u1 &&
+    return q->t_min < q->t_max && q->tolerance >= 0.0 && r->u0 >= 0.0 && r->u0 <= r->u1 &&
            r->u1 <= 1.0 && r->v0 >= 0.0 && r->v0 <= r->v1 && r->v1 <= 1.0;
 }
 
@@ -142,23 +141,22 @@ static void turn_points(QiFrame *f, const Axes *axes, double times, Bezier *s) {
     f->slack_z = times * slack_of(s->du, s->dv, sums.z, side.z);
 }
 
-bool qi_frame_init(QiFrame *f, QiFrameKind kind, const Bezier *patch, const QiQuery *query,
-                   Bezier *out) {
-    if (!query_is_sound(query))
+bool qi_frame_init(QiFrame *f, QiFrameKind kind, const Bezier *patch, const Ray *ray, Bezier *out) {
+    if (!vec_is_finite(ray->org) || !vec_is_finite(ray->dir) || !(largest(ray->dir) > 0.0))
         return false;
-    double most = largest(query->ray.org);
+    double most = largest(ray->org);
     for (int k = 0; k < bezier_count(patch); k++)
         most = larger(most, largest(patch->p[k]));
     if (!isfinite(most))
         return false;
     int exponent, dir_exponent;
     frexp(most, &exponent);
-    frexp(largest(query->ray.dir), &dir_exponent);
+    frexp(largest(ray->dir), &dir_exponent);
     f->exponent = -exponent;
     f->t_exponent = exponent - dir_exponent;
 
-    Vec3 dir = shifted(query->ray.dir, -dir_exponent);
-    Vec3 far = move_points(f->exponent, patch, query->ray.org, out);
+    Vec3 dir = shifted(ray->dir, -dir_exponent);
+    Vec3 far = move_points(f->exponent, patch, ray->org, out);
     Axes axes =
         kind == FRAME_ACROSS ? axes_across(dir, &f->length) : axes_skew(dir, far, &f->length);
     f->axes[0] = axes.x;
@@ -169,6 +167,12 @@ bool qi_frame_init(QiFrame *f, QiFrameKind kind, const Bezier *patch, const QiQu
     f->stretch = vec_length(dir) / f->length;
     f->rounding = sqrt(f->slack_x * f->slack_x + f->slack_y * f->slack_y) + f->stretch * f->slack_z;
     f->least_tolerance = 0.5 * floor_of(out->du, out->dv, f->rounding);
+    return true;
+}
+
+bool qi_frame_ask(QiFrame *f, const QiQuery *query) {
+    if (!query_is_sound(query))
+        return false;
     f->tolerance = larger(ldexp(query->tolerance, f->exponent), f->least_tolerance);
     f->z_low = depth_of(f, query->t_min, -8.0) - f->slack_z;
     f->z_high = depth_of(f, query->t_max, 8.0) + f->slack_z;

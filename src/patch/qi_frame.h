@@ -33,10 +33,13 @@ typedef struct {
     double z_low, z_high;             // depths that t_min and t_max allow, rounded outwards
 } QiFrame;
 
-// Puts the patch into the ray's frame: out gets its points. False for a ray or query that can have
-// no hit (zero or infinite direction, empty ranges, NaN).
-bool qi_frame_init(QiFrame *frame, QiFrameKind kind, const Bezier *patch, const QiQuery *query,
+// Puts the patch into the ray's frame: out gets its points. False for a ray that can have no hit
+// (zero or infinite direction, NaN).
+bool qi_frame_init(QiFrame *frame, QiFrameKind kind, const Bezier *patch, const Ray *ray,
                    Bezier *out);
+// The tolerance and depths of a query of that patch by that ray. False for one that can have no hit
+// (empty ranges, NaN).
+bool qi_frame_ask(QiFrame *frame, const QiQuery *query);
 double qi_frame_t(const QiFrame *frame, double z);
 double qi_frame_scene(const QiFrame *frame, double length); // frame units to scene units
 

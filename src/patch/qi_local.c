@@ -159,15 +159,18 @@ static void make_cubic(const QiLocal *q, int coordinate, double out[16], double 
     const double *p = coordinate == 0 ? q->net->x : coordinate == 1 ? q->net->y : q->net->z;
     const double *wu = q->u, *wv = q->v;
     double hu = 0.5 * (q->from.u1 - q->from.u0), hv = 0.5 * (q->from.v1 - q->from.v0);
-    double t[4][4] = {{0.0}};
+    // t[a][0] has T_a0 and T_a1, t[a][1] has T_a2 and T_a3; those of higher orders are left out.
+    Lanes2 t[4][2] = {{{0.0}}};
     for (int i = 0; i <= du; i++, p += dv + 1) {
-        double row[4] = {0.0};
-        for (int j = 0; j <= dv; j++)
-            for (int k = 0; k < 4; k++)
-                row[k] += p[j] * wv[4 * j + k];
+        Lanes2 low = {0.0}, high = {0.0};
+        for (int j = 0; j <= dv; j++) {
+            low += p[j] * lanes2_load(wv + 4 * j);
+            high += p[j] * lanes2_load(wv + 4 * j + 2);
+        }
         for (int a = 0; a < 4; a++)
-            for (int b = 0; a + b < 4; b++)
-                t[a][b] += wu[4 * i + a] * row[b];
+            t[a][0] += wu[4 * i + a] * low;
+        for (int a = 0; a < 2; a++)
+            t[a][1] += wu[4 * i + a] * high;
     }
 
     // Powers of s in [-1,1] as control points.
@@ -179,7 +182,7 @@ static void make_cubic(const QiLocal *q, int coordinate, double out[16], double 
         double line[4] = {0.0};
         for (int a = 0; a < 4; a++)
             for (int b = 0; a + b < 4; b++)
-                line[b] += t[a][b] * power[a][k];
+                line[b] += t[a][b / 2][b % 2] * power[a][k];
         for (int m = 0; m < 4; m++)
             out[4 * k + m] =
                 line[0] + line[1] * power[1][m] + line[2] * power[2][m] + line[3] * power[3][m];

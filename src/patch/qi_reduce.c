@@ -30,10 +30,9 @@
 // direction that is longer as the ray sees it. A piece wholly within the tolerance of the ray is
 // one hit, and so is a curve of a piece on which one coordinate vanishes while the other is nothing
 // but rounding: a tangent ray, or one that lies in the surface.
-#include "patch/qi.h"
+#include "patch/qi_reduce.h"
 
 #include "patch/qi_bend.h"
-#include "patch/qi_local.h"
 #include "patch/qi_pole.h"
 #include "patch/quasi.h"
 
@@ -51,13 +50,7 @@ static const uint64_t PATIENCE = 96;
 // L from which on Newton is tried.
 static const double LIKELY_SLOPE = 0.75;
 
-typedef struct {
-    QiTarget target;
-    unsigned poles, collapsed; // qi_poles(), qi_collapsed()
-    uint64_t steps, full, work_limit;
-    bool has_local;
-    QiLocal local;
-} Search;
+typedef QiSearch Search;
 
 // The part of [low,high] that a local span leaves, rounded outwards by some ulps of 1.
 static void narrow(double *low, double *high, Span part) {
@@ -660,50 +653,71 @@ static void search(Search *q, BezierRect rect) {
     }
 }
 
-static int intersect(const Bezier *patch, const double *weights, const QiQuery *query, QiMode mode,
-                     QiStats *stats, QiSink sink, void *context) {
+void qi_search_init(QiSearch *q, const Bezier *patch, const double *weights, const Ray *ray) {
+    q->sound = qi_target_init(&q->target, patch, weights, ray);
+    if (!q->sound)
+        return;
+    q->poles = qi_poles(&q->target);
+    q->collapsed = qi_collapsed(&q->target);
+    q->work_limit = (uint64_t)qi_work_limit(patch);
+}
+
+static int ask(QiSearch *q, const Bezier *patch, const double *weights, const QiQuery *query,
+               QiMode mode, QiStats *stats, QiSink sink, void *context) {
     QiFound found[QI_MAX_HITS];
-    Search q;
-    if (!qi_target_init(&q.target, patch, weights, query, mode, found,
-                        mode == QI_ALL ? QI_MAX_HITS : 1))
+    if (!q->sound ||
+        !qi_target_ask(&q->target, query, mode, found, mode == QI_ALL ? QI_MAX_HITS : 1))
         return 0;
-    q.poles = qi_poles(&q.target);
-    q.collapsed = qi_collapsed(&q.target);
-    q.has_local = qi_local_init(&q.local, &q.target, query->rect, query->fourth);
-    q.steps = q.full = 0;
-    q.work_limit = (uint64_t)qi_work_limit(patch);
-    search(&q, query->rect);
+    q->has_local = qi_local_init(&q->local, &q->target, query->rect, query->fourth);
+    q->steps = q->full = 0;
+    search(q, query->rect);
     if (stats) {
-        stats->steps += q.steps;
-        stats->full += q.full;
-        stats->newton += q.target.newton;
-        stats->limited += q.steps > q.work_limit;
+        stats->steps += q->steps;
+        stats->full += q->full;
+        stats->newton += q->target.newton;
+        stats->limited += q->steps > q->work_limit;
     }
-    return qi_list_report(&q.target.list, patch, weights, &q.target.frame, query->ray.dir, stats,
+    return qi_list_report(&q->target.list, patch, weights, &q->target.frame, query->ray.dir, stats,
                           sink, context);
 }
 
-int qi_reduce_all(const Bezier *patch, const QiQuery *query, QiStats *stats, QiSink sink,
-                  void *context) {
-    return intersect(patch, NULL, query, QI_ALL, stats, sink, context);
+int qi_search_all(QiSearch *q, const Bezier *patch, const double *weights, const QiQuery *query,
+                  QiStats *stats, QiSink sink, void *context) {
+    return ask(q, patch, weights, query, QI_ALL, stats, sink, context);
 }
 
 static void take_hit(void *context, const QiHit *hit) { *(QiHit *)context = *hit; }
 
+bool qi_search_nearest(QiSearch *q, const Bezier *patch, const double *weights,
+                       const QiQuery *query, QiStats *stats, QiHit *hit) {
+    return ask(q, patch, weights, query, QI_NEAREST, stats, take_hit, hit) > 0;
+}
+
+int qi_reduce_all(const Bezier *patch, const QiQuery *query, QiStats *stats, QiSink sink,
+                  void *context) {
+    return qi_rational_all(patch, NULL, query, stats, sink, context);
+}
+
 bool qi_reduce_nearest(const Bezier *patch, const QiQuery *query, QiStats *stats, QiHit *hit) {
-    return intersect(patch, NULL, query, QI_NEAREST, stats, take_hit, hit) > 0;
+    return qi_rational_nearest(patch, NULL, query, stats, hit);
 }
 
 bool qi_reduce_any(const Bezier *patch, const QiQuery *query, QiStats *stats) {
-    return intersect(patch, NULL, query, QI_ANY, stats, NULL, NULL) > 0;
+    QiSearch q;
+    qi_search_init(&q, patch, NULL, &query->ray);
+    return ask(&q, patch, NULL, query, QI_ANY, stats, NULL, NULL) > 0;
 }
 
 int qi_rational_all(const Bezier *patch, const double *weights, const QiQuery *query,
                     QiStats *stats, QiSink sink, void *context) {
-    return intersect(patch, weights, query, QI_ALL, stats, sink, context);
+    QiSearch q;
+    qi_search_init(&q, patch, weights, &query->ray);
+    return qi_search_all(&q, patch, weights, query, stats, sink, context);
 }
 
 bool qi_rational_nearest(const Bezier *patch, const double *weights, const QiQuery *query,
                          QiStats *stats, QiHit *hit) {
-    return intersect(patch, weights, query, QI_NEAREST, stats, take_hit, hit) > 0;
+    QiSearch q;
+    qi_search_init(&q, patch, weights, &query->ray);
+    return qi_search_nearest(&q, patch, weights, query, stats, hit);
 }

@@ -2,6 +2,8 @@
 // Points and roots of a patch in the ray's frame. See qi_root.h.
 #include "patch/qi_root.h"
 
+#include "base/lanes.h"
+
 #include <float.h>
 #include <stddef.h>
 
@@ -32,29 +34,32 @@ static inline Point eval_net(const QiNet *n, int du, int dv, double u, double v,
     double wu[LINE], su[LINE], wv[LINE], sv[LINE], sum = 0.0;
     basis(du, u, wu, su);
     basis(dv, v, wv, sv);
+    Lanes2 both[LINE]; // value and slope side by side
+    for (int j = 0; j <= dv; j++)
+        both[j] = (Lanes2){wv[j], sv[j]};
+    Lanes2 px = {0.0}, py = {0.0};
     Point p = {.w = 1.0};
     for (int i = 0; i <= du; i++) {
         const double *x = n->x + i * (dv + 1), *y = n->y + i * (dv + 1), *z = n->z + i * (dv + 1);
-        double rx = 0.0, ry = 0.0, rz = 0.0, rxv = 0.0, ryv = 0.0;
+        Lanes2 rx = {0.0}, ry = {0.0};
+        double rz = 0.0;
         for (int j = 0; j <= dv; j++) {
-            rx += x[j] * wv[j];
-            ry += y[j] * wv[j];
+            rx += x[j] * both[j];
+            ry += y[j] * both[j];
             rz += z[j] * wv[j];
-            rxv += x[j] * sv[j];
-            ryv += y[j] * sv[j];
         }
-        p.x += rx * wu[i];
-        p.y += ry * wu[i];
+        px += rx * wu[i];
+        py += ry * wu[i];
         p.z += rz * wu[i];
-        p.xu += rx * su[i];
-        p.yu += ry * su[i];
-        p.xv += rxv * wu[i];
-        p.yv += ryv * wu[i];
+        p.xu += rx[0] * su[i];
+        p.yu += ry[0] * su[i];
         double row = 0.0;
         for (int j = 0; rational && j <= dv; j++)
             row += n->w[i * (dv + 1) + j] * wv[j];
         sum += row * wu[i];
     }
+    p.x = px[0], p.xv = px[1];
+    p.y = py[0], p.yv = py[1];
     if (rational)
         p.w = sum;
     return p;
@@ -349,11 +354,9 @@ static double weight_of(double side, double slack) {
     return size > DBL_MIN ? 1.0 / size : 1.0;
 }
 
-bool qi_target_init(QiTarget *q, const Bezier *patch, const double *weights, const QiQuery *query,
-                    QiMode mode, QiFound *found, int capacity) {
+bool qi_target_init(QiTarget *q, const Bezier *patch, const double *weights, const Ray *ray) {
     Bezier framed;
-    if (!qi_frame_init(&q->frame, weights ? FRAME_SKEW_RATIONAL : FRAME_SKEW, patch, query,
-                       &framed))
+    if (!qi_frame_init(&q->frame, weights ? FRAME_SKEW_RATIONAL : FRAME_SKEW, patch, ray, &framed))
         return false;
     q->du = patch->du;
     q->dv = patch->dv;
@@ -375,6 +378,12 @@ bool qi_target_init(QiTarget *q, const Bezier *patch, const double *weights, con
     q->weight_y = weight_of(q->frame.side_y, q->frame.slack_y);
     q->unit_x = q->frame.slack_x > DBL_MIN ? 1.0 / q->frame.slack_x : 1.0;
     q->unit_y = q->frame.slack_y > DBL_MIN ? 1.0 / q->frame.slack_y : 1.0;
+    return true;
+}
+
+bool qi_target_ask(QiTarget *q, const QiQuery *query, QiMode mode, QiFound *found, int capacity) {
+    if (!qi_frame_ask(&q->frame, query))
+        return false;
     q->list = (QiList){mode, query->t_min, query->t_max, 0, capacity, found};
     q->newton = 0;
     return true;

@@ -30,10 +30,12 @@ typedef struct {
     double bx, by, au, av;
 } QiForm;
 
-// Fills the target; found holds `capacity` hits. False as qi_frame_init().
+// Puts a patch and a ray into the target. False as qi_frame_init().
 // weights: of a rational patch, else NULL.
-bool qi_target_init(QiTarget *target, const Bezier *patch, const double *weights,
-                    const QiQuery *query, QiMode mode, QiFound *found, int capacity);
+bool qi_target_init(QiTarget *target, const Bezier *patch, const double *weights, const Ray *ray);
+// Begins a query of it; found holds `capacity` hits. False as qi_frame_ask().
+bool qi_target_ask(QiTarget *target, const QiQuery *query, QiMode mode, QiFound *found,
+                   int capacity);
 
 // Distance of S(u,v) from the ray as the weights measure it.
 double qi_root_off(const QiTarget *target, double u, double v);

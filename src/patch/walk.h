@@ -4,6 +4,7 @@
 #define PATCH_WALK_H
 
 #include "patch/piece.h"
+#include "patch/qi_reduce.h"
 #include "patch/query.h"
 #include "patch/root.h"
 
@@ -32,7 +33,17 @@ typedef struct {
     uint64_t endless; // nets of searches that found the ray in the surface (search.h)
     uint64_t seen_count;
     WalkSeen seen[WALK_SEEN]; // the last ones, a ring
+    bool has_qi;
+    QiSearch qi; // of the same patch, if has_qi
 } Walk;
+
+// The ray as that patch sees it.
+static inline void walk_see(Walk *walk, uint32_t patch) {
+    walk->patch = patch;
+    walk->has_qi = false;
+    patch_ray_init(&walk->ray, &walk->accel->patches[patch], &walk->query->ray, walk->dir,
+                   walk->t_per_s);
+}
 
 // The nearest hit must not depend on the order in which leaves are visited, so leaves that begin
 // behind the best hit are left out only if nothing in them could win. A crossing lies in the box of

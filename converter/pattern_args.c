@@ -102,12 +102,16 @@ static void parse_fractal(Converter *cv, PatternNode *pattern) {
     fractal->iterations = parse_iterations(cv);
 }
 
-// object { OBJECT items }
+// object { OBJECT transforms items }
 static void parse_object_pattern(Converter *cv, PatternUse use, PatternNode *pattern) {
     expect(cv, '{', "object pattern");
-    pattern->object = parse_object(cv);
-    if (!pattern->object)
+    ObjectNode *object = parse_object(cv);
+    if (!object)
         die_expected(cv, "an object");
+    Move move;
+    while (parse_move(cv, &move))
+        object_move(cv, object, &move);
+    pattern->object = object;
     pattern->map = parse_pattern_list(cv, use, pattern->info);
     expect(cv, '}', "object pattern");
 }

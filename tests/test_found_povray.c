@@ -34,6 +34,9 @@ static const char *const SCENES[] = {
     "#for (I, 1, 2500) #declare U = union { object { U }\n"
     "sphere { <I/625 - 2, 0.5*sin(I/50), 0>, 0.06 pigment { rgb <I/2500, 1, 0> } } } #end\n"
     "object { U rotate 20*x }",
+    // 5: transforms between the object of a pattern and its list were refused
+    "box { -1, 1 rotate <20, 30, 0> pigment { object { torus { 0.8, 0.3 } scale <1, 2, 1>\n"
+    "rotate 60*x translate 0.3*y color rgb <1, 0.8, 0.2>, color rgb <0.1, 0.3, 0.9> } } }",
 };
 
 int main(void) {

@@ -213,7 +213,7 @@ static StressVerdict judge_nearest(const Trial *trial, RayOracleRange range) {
                     continue;
                 if (!a->found || !a->any)
                     return a->found ? STRESS_DIFFER : STRESS_MISSED;
-                if (behind(trial, &a->hit, k))
+                if (behind(trial, &a->hit, k) && !beside_range_end(trial, k))
                     return STRESS_ORDER;
             } else if (c->t + c->dt >= r->t_min && c->t - c->dt < r->t_max) {
                 // Only matters when it may lie before the answer.

@@ -156,11 +156,32 @@ static void all_along_a_line(void **state) {
     patchset_destroy(set);
 }
 
+// Beside a corner whose two tangents are one line, where the sheet bends within a hundredth of the
+// hit's bound: the ray was said to be clear after that, and met the corner again.
+static void clear_of_singular_corners(void **state) {
+    (void)state;
+    static const Vec3 points[20] = {
+        {1, 0, -1},  {-1, 1, -1},  {0, 1, -1},  {0, -1, 1},  {1, -1, 1}, {-1, 1, -1}, {0, -1, 0},
+        {1, 1, -1},  {0, 0, 0},    {-1, -1, 1}, {1, -1, -1}, {0, -1, 0}, {-1, 1, -1}, {1, -1, -1},
+        {0, -1, -1}, {-1, -1, -1}, {-1, 0, -1}, {0, -1, -1}, {1, -1, 0}, {0, 1, 1}};
+    PatchDef def = {.degree_u = 3, .degree_v = 4, .points = points, .mask = UINT32_MAX};
+    PatchHit hit = {.u = 3.8271674379910449e-10,
+                    .v = 1.0,
+                    .normal = {-7.2615396567530498e-10, 0.31622776659776108, 0.94868329785687278},
+                    .bound = 9.64575e-14};
+    Ray ray = {{0.99999999770369952, -1.0, 1.0},
+               {-1.8417240939681729e-18, 6.7158264292330097e-19, -3.4858388271381689e-19}};
+    double way = patch_clearance(&def, &hit, &ray) * vec_length(ray.dir);
+    if (!(way >= 2.0 * hit.bound))
+        fail_msg("clear after %g", way);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(patches_smaller_than_floats),
         cmocka_unit_test(two_sides_one_point),
         cmocka_unit_test(clear_of_what_hardly_bends),
+        cmocka_unit_test(clear_of_singular_corners),
         cmocka_unit_test(all_along_a_line),
     };
     return cmocka_run_group_tests_name("qi_found", tests, NULL, NULL);

@@ -366,5 +366,7 @@ double patch_clearance(const PatchDef *def, const PatchHit *hit, const Ray *ray)
     double t = second_order(&l, hit->normal);
     if (t < 0.0)
         t = follow_surface(&l);
+    // Beside a singular corner it may bend within less than the bound: of that nothing is known.
+    t = fmax(t, 2.0 * l.bound);
     return t / (half * rest) / (length * most);
 }

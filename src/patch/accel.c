@@ -96,7 +96,7 @@ void accel_query(const Accel *accel, Query *query) {
     walk.query = query;
     walk.t_limit = query->t_max;
     walk.best_patch = walk.best_piece = 0;
-    for (; accel && !query_done(query); accel = accel->next) {
+    do {
         walk.accel = accel;
         walk.t_least = -INFINITY;
         kernels_chosen()->query(&walk);
@@ -104,5 +104,6 @@ void accel_query(const Accel *accel, Query *query) {
             query->t_max = query->best.t;
         // Of hits in the same place that of the larger patch is kept.
         walk.best_patch = walk.best_piece = 0;
-    }
+        accel = accel->next;
+    } while (accel && !query_done(query));
 }

@@ -14,7 +14,7 @@
 
 #include "patch/qi_bound.h"
 
-bool qi_local_pays(int du, int dv) { return (du + 1) * (dv + 1) >= 64; }
+bool qi_local_pays(int du, int dv) { return (du + 1) * (dv + 1) >= 24; }
 
 // d (d-1) ... of so many factors; 0 when there are fewer.
 static double falling(int d, int factors) {

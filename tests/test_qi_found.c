@@ -176,13 +176,33 @@ static void clear_of_singular_corners(void **state) {
         fail_msg("clear after %g", way);
 }
 
+// Rays at a sheet's end, along it or nearly so and onwards: beside nothing any more. They were said
+// to be clear where the sheet, had it gone on, would have been left: the crossing with a neighbour
+// was passed over, 5e-10 behind the corner of six patches.
+static void clear_where_the_patch_ends(void **state) {
+    (void)state;
+    const double bound = 1e-13;
+    for (int k = 0; k < 8; k++) {
+        double slope = k & 1 ? 1e-6 : 0.0, bend = k & 2 ? 2.0 : 0.0, back = k & 4 ? 1e-12 : 0.0;
+        Vec3 points[16], s[3];
+        sheet(points, 0.25, bend);
+        PatchDef def = def_of(points);
+        ray_oracle_jet(&def, 1.0 - back, 0.5, s);
+        Vec3 normal = vec_normalize(vec_cross(s[1], s[2]));
+        PatchHit hit = {.u = 1.0 - back, .v = 0.5, .normal = normal, .bound = bound};
+        Ray ray = {s[0], vec_madd(vec_normalize(s[1]), slope, normal)};
+        // To the end, and then away by 7 bounds and what rounding adds.
+        double t = patch_clearance(&def, &hit, &ray);
+        if (!(t >= 2.0 * bound && t <= back * vec_length(s[1]) + 8.0 * bound))
+            fail_msg("%d: clear after %g", k, t);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(patches_smaller_than_floats),
-        cmocka_unit_test(two_sides_one_point),
-        cmocka_unit_test(clear_of_what_hardly_bends),
-        cmocka_unit_test(clear_of_singular_corners),
-        cmocka_unit_test(all_along_a_line),
+        cmocka_unit_test(patches_smaller_than_floats), cmocka_unit_test(two_sides_one_point),
+        cmocka_unit_test(clear_of_what_hardly_bends),  cmocka_unit_test(clear_of_singular_corners),
+        cmocka_unit_test(clear_where_the_patch_ends),  cmocka_unit_test(all_along_a_line),
     };
     return cmocka_run_group_tests_name("qi_found", tests, NULL, NULL);
 }

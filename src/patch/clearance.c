@@ -13,12 +13,13 @@
 // So what lies before t is within ten bounds of the ray all the way from its start, and nothing
 // that is farther from the surface than that is lost.
 //
-// That holds where s and k are known and the surface is its second order as far as t. Of a ribbon
-// 1e10 times longer than wide whose tangents are nearly parallel neither is: curvatures of 1e18
-// come out. There the surface itself is followed: from t = 2 b on, by a fifth at a time, the
-// points of the ray are asked whether the patch has a point within 3 b of them, and between the
-// first that has none and the one before, the same by halves. The t that comes out is proved to be
-// farther than b from all of the patch, and no farther than 7 b (follow_surface).
+// That holds where s and k are known, the surface is its second order as far as t, and the patch
+// does not end before (or t is no more than ten bounds itself). Of a ribbon 1e10 times longer than
+// wide whose tangents are nearly parallel neither is: curvatures of 1e18 come out. There the
+// surface itself is followed: from t = 2 b on, by a fifth at a time, the points of the ray are
+// asked whether the patch has a point within 3 b of them, and between the first that has none and
+// the one before, the same by halves. The t that comes out is proved to be farther than b from all
+// of the patch, and no farther than 7 b (follow_surface).
 #include "patch/patch.h"
 
 #include "patch/bezier.h"
@@ -308,6 +309,12 @@ static double follow_surface(Leaving *l) {
 
 // ---- Second order
 
+// Does the patch go on as far as that way leads? Where it ends the ray is beside nothing any more.
+static bool stays_inside(const Leaving *l, double along_u, double along_v) {
+    double u = l->u + along_u, v = l->v + along_v;
+    return u >= 0.0 && u <= 1.0 && v >= 0.0 && v <= 1.0;
+}
+
 // The formula's t; negative where it is not certain.
 //
 // The tangents err by a few dozen roundings of the patch's size, the normal by that in shares of
@@ -339,7 +346,7 @@ static double second_order(const Leaving *l, Vec3 normal) {
     // And b moves (u,v), beside the way to t.
     bool certain =
         off <= 0.125 * fmax(sine, sqrt(b)) && t * way <= 0x1p-6 && b * fmax(u, v) / plane <= 0x1p-6;
-    return certain ? t : -1.0;
+    return certain && (t <= 10.0 * b || stays_inside(l, t * du, t * dv)) ? t : -1.0;
 }
 
 double patch_clearance(const PatchDef *def, const PatchHit *hit, const Ray *ray) {

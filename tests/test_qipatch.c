@@ -131,7 +131,7 @@ static void errors_are_returned(void **state) {
     QipatchScene *scene = qipatch_new_scene(1e-6);
     assert_string_equal(qipatch_error_text(scene), "");
     double points[4][3] = {{0, 0, 0}, {0, 1, 0}, {1, INFINITY, 0}, {1, 1, 0}};
-    double weights[4] = {1, 1, 1, 0};
+    double weights[4] = {1, 1, 1, 0}, apart[4] = {1, 1, 1, 1.1e12};
     const struct {
         QipatchPatch patch;
         const char *text;
@@ -141,6 +141,7 @@ static void errors_are_returned(void **state) {
         {{1, 17, sheet(0), NULL, 0}, "degrees"},
         {{1, 1, (const double(*)[3])points, NULL, 0}, "point 2 is not finite"},
         {{1, 1, sheet(0), weights, 0}, "weight 3 is not a finite number above 0"},
+        {{1, 1, sheet(0), apart, 0}, "the weights differ by more than 1e+12"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         assert_int_equal(qipatch_attach_patch(scene, &cases[i].patch, NULL),

@@ -10,9 +10,6 @@
 // Coordinates may be as large as a product of crossed vectors, squared, still fits a double:
 // |a x b|^2 <= 4 (1e60)^4 = 4e240 < 1e308.
 #define MAX_COORDINATE 1e60
-// The weights of a rational patch may differ by this much: their products, and the cubes of them,
-// stay far from the ends of what a double can hold.
-#define MAX_WEIGHTS 1e30
 
 // Records that refer to each other.
 typedef struct {

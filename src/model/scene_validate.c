@@ -7,6 +7,7 @@
 #include "model/check.h"
 #include "model/scene_check.h"
 #include "model/scene_format.h"
+#include "patch/bezier.h"
 
 #include <math.h>
 #include <string.h>
@@ -176,9 +177,9 @@ static void check_weights(const Check *c, const FieldPath *path, const PatchShap
         least = fmin(least, w);
         most = fmax(most, w);
     }
-    // Their products must stay numbers.
-    if (most / least > MAX_WEIGHTS)
-        refuse(c, path, "the weights %g and %g differ by more than %g", least, most, MAX_WEIGHTS);
+    if (most / least > BEZIER_MAX_WEIGHTS)
+        refuse(c, path, "the weights %g and %g differ by more than %g", least, most,
+               BEZIER_MAX_WEIGHTS);
 }
 
 static void check_patch(const Check *c, const FieldPath *path, const PatchShape *patch) {

@@ -23,6 +23,11 @@ enum {
     BEZIER_MAX_POINTS = (BEZIER_MAX_DEGREE + 1) * (BEZIER_MAX_DEGREE + 1)
 };
 
+// How far apart the weights of a rational patch may be. A part of small weights beside one of large
+// ones takes 1 / that of the parameters, so at 1e12 a double's last bits place a point there to
+// four digits; at 1e15 to one, and crossings there cannot be told from their neighbours.
+#define BEZIER_MAX_WEIGHTS 1e12
+
 typedef struct {
     int du, dv; // 1..16
     Vec3 p[BEZIER_MAX_POINTS];

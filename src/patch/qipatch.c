@@ -3,6 +3,7 @@
 #include "patch/qipatch.h"
 
 #include "base/diag.h"
+#include "patch/bezier.h"
 #include "patch/patch.h"
 
 #include <stdio.h>
@@ -91,7 +92,10 @@ static const char *fault_of(const QipatchPatch *patch, char text[160]) {
         least = fmin(least, patch->weights ? patch->weights[i] : 1.0);
         most = fmax(most, patch->weights ? patch->weights[i] : 1.0);
     }
-    return most / least > 1e30 ? "the weights differ by more than 1e30" : NULL;
+    if (!(most / least > BEZIER_MAX_WEIGHTS))
+        return NULL;
+    snprintf(text, 160, "the weights differ by more than %g", BEZIER_MAX_WEIGHTS);
+    return text;
 }
 
 QipatchError qipatch_attach_patch(QipatchScene *scene, const QipatchPatch *patch, uint32_t *id) {

@@ -56,7 +56,7 @@ void qipatch_release_scene(QipatchScene *scene); // NULL is fine
 typedef struct {
     unsigned degree_u, degree_v; // 1 to 16; 3 and 3 are fastest
     const double (*points)[3];   // (degree_u + 1) rows of (degree_v + 1) points; copied
-    const double *weights;       // as many, > 0, up to 1e30 apart; NULL: polynomial; copied
+    const double *weights;       // as many, > 0, up to 1e12 apart; NULL: polynomial; copied
     uint32_t mask; // a ray meets the patch when (mask & ray mask) != 0; 0 stands for all
 } QipatchPatch;
 

@@ -377,7 +377,7 @@ static void test_built_up(void **state) {
     static const struct {
         const char *first, *step, *last, *message;
     } cases[] = {
-        {"#declare S = sphere { 0, 1 }", "#declare S = union { object { S } sphere { 0, 1 } }", "S",
+        {"#declare S = sphere { 0, 1 }", "#declare S = merge { object { S } sphere { 0, 1 } }", "S",
          "1000 objects inside one another"},
         {"#declare S = sphere { 0, 1 }", "#declare S = sphere { 0, 1 clipped_by { S } }", "S",
          "1000 objects inside one another"},

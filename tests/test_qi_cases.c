@@ -7,18 +7,12 @@
 
 #include <cmocka.h>
 
-#include "patch/patch.h"
+#include "found_ray.h"
 #include "patch/qi.h"
 #include "patch/rational.h"
 #include "ray_oracle.h"
 
 enum { MOST_STEPS = 400 };
-
-typedef struct {
-    const char *before; // what came out
-    Vec3 points[16];
-    Ray ray;
-} Found;
 
 // A sheet with its corner at (x, 0, z), bent by `bend`.
 static PatchDef sheet(Vec3 points[16], double x, double z, double side, double bend) {

@@ -7,26 +7,8 @@
 
 #include <cmocka.h>
 
-#include "patch/patch.h"
+#include "found_ray.h"
 #include "ray_oracle.h"
-
-typedef struct {
-    const char *before; // what came out
-    Vec3 points[16];
-    Ray ray;
-} Found;
-
-static PatchDef def_of(const Vec3 points[16]) {
-    return (PatchDef){.degree_u = 3, .degree_v = 3, .points = points, .mask = UINT32_MAX};
-}
-
-static PatchSet *set_of(const PatchDef *def) {
-    PatchSetOptions options = patchset_options_default();
-    PatchSet *set = patchset_create(&options);
-    patchset_add(set, def);
-    patchset_commit(set);
-    return set;
-}
 
 static const Found tiny = {
     "of size 1e-45 bounds of second derivatives were 0 in single precision: Newton ended 5e-11 of "
@@ -83,11 +65,6 @@ static const Found corner = {
      {9.6768467437687222e-09, 1.6642474805516646e-08, -3.0755106514382339e-09}},
     {{8.584069364549221e-09, 1.3524074450985368e-08, -7.3286962076160254e-09},
      {-1.1990115393345657e-08, -1.20199081618722e-08, 8.0162575603629012e-09}}};
-
-static void count_hit(void *count, const PatchHit *hit) {
-    (void)hit;
-    ++*(int *)count;
-}
 
 static void two_sides_one_point(void **state) {
     (void)state;

@@ -7,17 +7,11 @@
 
 #include <cmocka.h>
 
-#include "patch/patch.h"
+#include "found_ray.h"
 #include "patch/qi.h"
 #include "ray_oracle.h"
 
 enum { MOST_STEPS = 400 };
-
-typedef struct {
-    const char *before; // what came out
-    Vec3 points[16];
-    Ray ray;
-} Found;
 
 // Ribbons 1e10 times longer than wide, seen from their length away.
 static const Found ribbons[] = {
@@ -275,14 +269,6 @@ static void rays_at_lines(void **state) {
         check(&lines[k], 50);
 }
 
-static PatchSet *set_of(const PatchDef *def) {
-    PatchSetOptions options = patchset_options_default();
-    PatchSet *set = patchset_create(&options);
-    patchset_add(set, def);
-    patchset_commit(set);
-    return set;
-}
-
 // Nothing before the hit, but where the ray is as near to the surface all the way.
 static void prepared_ribbons(void **state) {
     (void)state;
@@ -343,11 +329,6 @@ static void uneven_by_rounding(void **state) {
     if (stats.steps + stats.newton > 50)
         fail_msg("%s: %d steps", thread.before, (int)(stats.steps + stats.newton));
     patchset_destroy(set);
-}
-
-static void count_hit(void *count, const PatchHit *hit) {
-    (void)hit;
-    ++*(int *)count;
 }
 
 static void pairs_on_ribbons(void **state) {

@@ -107,6 +107,7 @@ typedef struct {
     Rgb reflectivity;
     const Finish *finish;
 } LayerReflection;
+
 static inline bool rgb_is_black(Rgb c) { return c.r == 0.0f && c.g == 0.0f && c.b == 0.0f; }
 static inline bool finish_reflects(const Finish *finish) {
     return !rgb_is_black(finish->reflection_max) || !rgb_is_black(finish->reflection_min);
@@ -120,6 +121,7 @@ typedef struct {
     Vec3 mirror_dir;
     WorldForeseen mirror;
 } AheadHit;
+
 enum { AHEAD_LIGHTS = 8 }; // scenes with more look at none
 
 typedef struct {

@@ -274,7 +274,7 @@ double shadow_filter_point(Tracer *tracer, uint32_t light, const WorldHit *from,
                            double distance, const InteriorList *inside, Rgb *color) {
     Way way;
     way_begin(&way, tracer->shading, light, (Ray){from->p, dir}, inside);
-    way.near = world_near(tracer->shading->world, from, dir, SHADOW_T_MIN);
+    way.near = shadow_near(tracer->shading, from, dir);
     return filter_by_objects(tracer, &way, light, distance, NULL, color);
 }
 
